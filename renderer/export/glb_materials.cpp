@@ -13,37 +13,6 @@ using nlohmann::json;
 
 constexpr int kPngLevel = 2;
 
-// Constants of glTF, which are OpenGL's.
-int wrapCode(Wrap wrap) {
-  switch (wrap) {
-    case Wrap::repeat:
-      return 10497;
-    case Wrap::clampToEdge:
-      return 33071;
-    case Wrap::mirroredRepeat:
-      return 33648;
-  }
-  return 10497;
-}
-
-int minFilterCode(MinFilter filter) {
-  switch (filter) {
-    case MinFilter::nearest:
-      return 9728;
-    case MinFilter::linear:
-      return 9729;
-    case MinFilter::nearestMipmapNearest:
-      return 9984;
-    case MinFilter::linearMipmapNearest:
-      return 9985;
-    case MinFilter::nearestMipmapLinear:
-      return 9986;
-    case MinFilter::linearMipmapLinear:
-      return 9987;
-  }
-  return 9987;
-}
-
 json transformJson(const TextureTransform& transform) {
   const glm::vec2 first = transform.axes[0];
   const float width = glm::length(first);
@@ -124,10 +93,10 @@ class MaterialWriter {
 
  private:
   std::size_t texture(const TextureUse& use) {
-    const json sampler = {{"wrapS", wrapCode(use.wrapS)},
-                          {"wrapT", wrapCode(use.wrapT)},
-                          {"magFilter", use.nearest ? 9728 : 9729},
-                          {"minFilter", minFilterCode(use.minFilter)}};
+    const json sampler = {{"wrapS", static_cast<int>(use.wrapS)},
+                          {"wrapT", static_cast<int>(use.wrapT)},
+                          {"magFilter", static_cast<int>(use.nearest ? MinFilter::nearest : MinFilter::linear)},
+                          {"minFilter", static_cast<int>(use.minFilter)}};
     const auto number = [this](const char* list, const json& entry) {
       const auto [found, isNew] =
           known_[list].try_emplace(entry.dump(), draft_.json.contains(list) ? draft_.json[list].size() : 0);

@@ -12,36 +12,6 @@
 namespace gnomon {
 namespace {
 
-GLenum glFilter(MinFilter filter) {
-  switch (filter) {
-    case MinFilter::linearMipmapLinear:
-      return GL_LINEAR_MIPMAP_LINEAR;
-    case MinFilter::linearMipmapNearest:
-      return GL_LINEAR_MIPMAP_NEAREST;
-    case MinFilter::nearestMipmapLinear:
-      return GL_NEAREST_MIPMAP_LINEAR;
-    case MinFilter::nearestMipmapNearest:
-      return GL_NEAREST_MIPMAP_NEAREST;
-    case MinFilter::linear:
-      return GL_LINEAR;
-    case MinFilter::nearest:
-      return GL_NEAREST;
-  }
-  return GL_LINEAR_MIPMAP_LINEAR;
-}
-
-GLenum glWrap(Wrap wrap) {
-  switch (wrap) {
-    case Wrap::repeat:
-      return GL_REPEAT;
-    case Wrap::clampToEdge:
-      return GL_CLAMP_TO_EDGE;
-    case Wrap::mirroredRepeat:
-      return GL_MIRRORED_REPEAT;
-  }
-  return GL_REPEAT;
-}
-
 /// Uploads each image once per colour space and each sampler once.
 class TextureUpload {
  public:
@@ -75,10 +45,10 @@ class TextureUpload {
     const auto [found, added] = samplers_.try_emplace(key, static_cast<int>(gpu_.samplers.size()));
     if (added) {
       gl::SamplerState state;
-      state.minFilter = glFilter(use.minFilter);
+      state.minFilter = static_cast<GLenum>(use.minFilter);
       state.magFilter = use.nearest ? GL_NEAREST : GL_LINEAR;
-      state.wrapS = glWrap(use.wrapS);
-      state.wrapT = glWrap(use.wrapT);
+      state.wrapS = static_cast<GLenum>(use.wrapS);
+      state.wrapT = static_cast<GLenum>(use.wrapT);
       gpu_.samplers.emplace_back(state, "material");
     }
     return found->second;

@@ -52,16 +52,18 @@ struct Primitive {
   std::string content{}; ///< SHA-256 of what its vertices and indices were made from; empty = not known
 };
 
-enum class Wrap { repeat, clampToEdge, mirroredRepeat };
+/// The numbers are those of glTF and OpenGL.
+enum class Wrap { repeat = 10497, clampToEdge = 33071, mirroredRepeat = 33648 };
 
-/// Which texels are mixed where a texture is shown smaller than it is: those of one level, and which levels.
+/// Which texels are mixed where a texture is shown smaller than it is: those of one level, and which levels. Numbered
+/// so, too.
 enum class MinFilter {
-  linearMipmapLinear,
-  linearMipmapNearest,
-  nearestMipmapLinear,
-  nearestMipmapNearest,
-  linear,
-  nearest
+  nearest = 9728,
+  linear = 9729,
+  nearestMipmapNearest = 9984,
+  linearMipmapNearest = 9985,
+  nearestMipmapLinear = 9986,
+  linearMipmapLinear = 9987
 };
 
 inline bool takesNearestTexel(MinFilter filter) {

@@ -4,6 +4,7 @@
 #include <set>
 #include <tuple>
 
+#include "protocol/spec/enum_rows.h"
 #include "renderer/scene/animation/motion.h"
 #include "renderer/scene/checks/extension_gate.h"
 #include "renderer/scene/memory.h"
@@ -28,18 +29,6 @@ std::uint64_t nodesOf(const gltf::Model& model, int scene) {
     nodes.insert(nodes.end(), children.begin(), children.end());
   }
   return nodes.size();
-}
-
-const char* nameOf(LightType type) {
-  switch (type) {
-    case LightType::spot:
-      return "spot";
-    case LightType::point:
-      return "point";
-    case LightType::directional:
-      break;
-  }
-  return "directional";
 }
 
 /// Of what deforms in the scene: skins, their joints, and each mesh's morph targets, which all its primitives share.
@@ -115,7 +104,7 @@ SceneSummary summarize(const gltf::Model& model, const SceneBundle& bundle, cons
     summary.cameras.push_back({camera.node, camera.name, camera.perspective ? "perspective" : "orthographic"});
   }
   for (const SceneLight& light : view.lights) {
-    summary.lights.push_back({light.node, light.name, nameOf(light.light.type)});
+    summary.lights.push_back({light.node, light.name, std::string(spell(light.light.type))});
   }
   summary.materialVariants = scene.variants;
   for (const auto& [name, file] : scene.grids) summary.volumeFiles.push_back(name);

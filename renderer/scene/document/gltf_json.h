@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -37,6 +39,15 @@ template <class T>
 std::optional<T> optionalAt(const nlohmann::json& object, std::string_view key) {
   const nlohmann::json* member = memberOf(object, key);
   return member == nullptr ? std::nullopt : std::optional<T>(member->get<T>());
+}
+
+/// The enumerator whose name, of these in their order, a member is; `missing` where there is none.
+template <class Enum, std::size_t kCount>
+Enum namedAt(const nlohmann::json& object, std::string_view key, const std::array<std::string_view, kCount>& names,
+             Enum missing) {
+  const nlohmann::json* member = memberOf(object, key);
+  if (member == nullptr) return missing;
+  return static_cast<Enum>(std::ranges::find(names, member->get_ref<const std::string&>()) - names.begin());
 }
 
 /// The numbers of a member; nothing where there is none.

@@ -26,38 +26,7 @@ gltf::SpecularGlossiness readSpecularGlossiness(const json& extension) {
           textureInfoAt(extension, "diffuseTexture"), textureInfoAt(extension, "specularGlossinessTexture")};
 }
 
-gltf::AlphaMode alphaModeOf(const std::string& name) {
-  if (name == "MASK") return gltf::AlphaMode::mask;
-  return name == "BLEND" ? gltf::AlphaMode::blend : gltf::AlphaMode::opaque;
-}
-
-Wrap wrapOf(int mode) {
-  switch (mode) {
-    case 33071:
-      return Wrap::clampToEdge;
-    case 33648:
-      return Wrap::mirroredRepeat;
-    default:
-      return Wrap::repeat;
-  }
-}
-
-MinFilter minFilterOf(int filter) {
-  switch (filter) {
-    case 9728:
-      return MinFilter::nearest;
-    case 9729:
-      return MinFilter::linear;
-    case 9984:
-      return MinFilter::nearestMipmapNearest;
-    case 9985:
-      return MinFilter::linearMipmapNearest;
-    case 9986:
-      return MinFilter::nearestMipmapLinear;
-    default:
-      return MinFilter::linearMipmapLinear;
-  }
-}
+constexpr std::array<std::string_view, 3> kAlphaModes{"OPAQUE", "MASK", "BLEND"};
 
 } // namespace
 
@@ -91,7 +60,7 @@ gltf::Material readMaterial(const json& source) {
   if (const json* strength = extensionOf(source, "KHR_materials_emissive_strength")) {
     material.emissiveStrength = strength->value("emissiveStrength", 1.0);
   }
-  material.alphaMode = alphaModeOf(source.value("alphaMode", "OPAQUE"));
+  material.alphaMode = namedAt(source, "alphaMode", kAlphaModes, gltf::AlphaMode::opaque);
   material.alphaCutoff = source.value("alphaCutoff", 0.5);
   material.doubleSided = source.value("doubleSided", false);
   material.unlit = extensionOf(source, "KHR_materials_unlit") != nullptr;
@@ -115,8 +84,12 @@ gltf::Texture readTexture(const json& source) {
 }
 
 gltf::TextureSampler readTextureSampler(const json& source) {
-  return {wrapOf(source.value("wrapS", 10497)), wrapOf(source.value("wrapT", 10497)),
-          source.value("magFilter", 9729) == 9728, minFilterOf(source.value("minFilter", 9987))};
+  gltf::TextureSampler sampler;
+  sampler.wrapS = Wrap{source.value("wrapS", static_cast<int>(sampler.wrapS))};
+  sampler.wrapT = Wrap{source.value("wrapT", static_cast<int>(sampler.wrapT))};
+  sampler.nearest = source.value("magFilter", 0) == static_cast<int>(MinFilter::nearest);
+  sampler.minFilter = MinFilter{source.value("minFilter", static_cast<int>(sampler.minFilter))};
+  return sampler;
 }
 
 } // namespace gnomon

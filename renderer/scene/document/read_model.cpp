@@ -76,10 +76,11 @@ gltf::Mesh readMesh(const json& source) {
   return {listAt(source, "primitives", readPrimitive), optionalAt<std::vector<double>>(source, "weights")};
 }
 
-ElementType elementTypeOf(const std::string& name) {
-  constexpr std::array<std::string_view, 7> kNames{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
-  return static_cast<ElementType>(std::find(kNames.begin(), kNames.end(), name) - kNames.begin());
-}
+constexpr std::array<std::string_view, 7> kElementTypes{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+constexpr std::array<std::string_view, 3> kMeshoptModes{"ATTRIBUTES", "TRIANGLES", "INDICES"};
+constexpr std::array<std::string_view, 5> kMeshoptFilters{"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"};
+constexpr std::array<std::string_view, 3> kLightTypes{"directional", "spot", "point"};
+constexpr std::array<std::string_view, 3> kInterpolations{"LINEAR", "STEP", "CUBICSPLINE"};
 
 gltf::Accessor readAccessor(const json& source) {
   gltf::Accessor accessor;
@@ -88,7 +89,7 @@ gltf::Accessor readAccessor(const json& source) {
   accessor.bufferView = source.value("bufferView", -1);
   accessor.byteOffset = source.value("byteOffset", std::size_t{0});
   accessor.componentType = componentTypeOf(source);
-  accessor.type = elementTypeOf(source["type"].get_ref<const std::string&>());
+  accessor.type = namedAt(source, "type", kElementTypes, ElementType::scalar);
   accessor.normalized = source.value("normalized", false);
   accessor.count = source["count"].get<std::size_t>();
   accessor.min = source.value("min", std::vector<double>());
@@ -104,18 +105,6 @@ gltf::Accessor readAccessor(const json& source) {
                                    values.value("byteOffset", std::size_t{0})};
   }
   return accessor;
-}
-
-MeshoptMode meshoptModeOf(std::string_view name) {
-  if (name == "TRIANGLES") return MeshoptMode::triangles;
-  return name == "INDICES" ? MeshoptMode::indices : MeshoptMode::attributes;
-}
-
-MeshoptFilter meshoptFilterOf(std::string_view name) {
-  if (name == "OCTAHEDRAL") return MeshoptFilter::octahedral;
-  if (name == "QUATERNION") return MeshoptFilter::quaternion;
-  if (name == "COLOR") return MeshoptFilter::color;
-  return name == "EXPONENTIAL" ? MeshoptFilter::exponential : MeshoptFilter::none;
 }
 
 /// The extension under the first of its names that the object has.
@@ -141,8 +130,8 @@ gltf::BufferView readBufferView(const json& source) {
                                  (*meshopt)["byteLength"].get<std::uint64_t>(),
                                  (*meshopt)["byteStride"].get<std::uint64_t>(),
                                  (*meshopt)["count"].get<std::uint64_t>(),
-                                 meshoptModeOf((*meshopt)["mode"].get_ref<const std::string&>()),
-                                 meshoptFilterOf(meshopt->value("filter", "NONE"))};
+                                 namedAt(*meshopt, "mode", kMeshoptModes, MeshoptMode::attributes),
+                                 namedAt(*meshopt, "filter", kMeshoptFilters, MeshoptFilter::none)};
   }
   return view;
 }
@@ -187,9 +176,7 @@ gltf::PunctualLight readLight(const json& source) {
   light.name = nameAt(source);
   light.fault = faultOf(source);
   if (!light.fault.empty()) return light;
-  light.type = source["type"] == "point"  ? LightType::point
-               : source["type"] == "spot" ? LightType::spot
-                                          : LightType::directional;
+  light.type = namedAt(source, "type", kLightTypes, LightType::directional);
   light.color = vectorAt<3>(source, "color");
   light.intensity = source.value("intensity", 1.0);
   if (const json* range = memberOf(source, "range")) light.range = range->get<double>();
@@ -215,15 +202,10 @@ gltf::AnimationChannel readChannel(const json& source) {
   return channel;
 }
 
-Interpolation interpolationOf(std::string_view name) {
-  if (name == "STEP") return Interpolation::step;
-  return name == "CUBICSPLINE" ? Interpolation::cubicSpline : Interpolation::linear;
-}
-
 gltf::AnimationSampler readSampler(const json& source) {
   if (!faultOf(source).empty()) return {.faulty = true};
   return {source["input"].get<std::size_t>(), source["output"].get<std::size_t>(),
-          interpolationOf(source.value("interpolation", "LINEAR"))};
+          namedAt(source, "interpolation", kInterpolations, Interpolation::linear)};
 }
 
 gltf::Animation readAnimation(const json& source) {
