@@ -14,46 +14,77 @@ constexpr std::string_view kCameras = "/cameras/";
 constexpr std::string_view kLights = "/extensions/KHR_lights_punctual/lights/";
 constexpr std::string_view kTransform = "/extensions/KHR_texture_transform/";
 
-/// Where a property stands below one of these, and the owner of its row in gltfFields(), which says its range.
+std::span<double> spanOf(double& value) {
+  return {&value, 1};
+}
+template <int kSize>
+std::span<double> spanOf(glm::vec<kSize, double>& value) {
+  return {&value[0], std::size_t{kSize}};
+}
+/// A number of an object that may be missing.
+template <class Object, class Number>
+std::span<double> spanIn(std::optional<Object>& object, Number Object::*number) {
+  return object ? spanOf((*object).*number) : std::span<double>();
+}
+
+/// Where a property stands below what it belongs to, and the owner of its row in gltfFields(), which says its range.
+template <class Holder>
 struct PropertyRow {
-  Property property;
-  std::string_view root;
   std::string_view path;
   std::string_view owner;
+  NumbersIn<Holder> numbers;
 };
 
-constexpr PropertyRow kRows[] = {
-    {Property::baseColorFactor, kMaterials, "pbrMetallicRoughness/baseColorFactor", "pbr"},
-    {Property::metallicFactor, kMaterials, "pbrMetallicRoughness/metallicFactor", "pbr"},
-    {Property::roughnessFactor, kMaterials, "pbrMetallicRoughness/roughnessFactor", "pbr"},
-    {Property::normalScale, kMaterials, "normalTexture/scale", "normalTexture"},
-    {Property::occlusionStrength, kMaterials, "occlusionTexture/strength", "occlusionTexture"},
-    {Property::emissiveFactor, kMaterials, "emissiveFactor", "material"},
-    {Property::emissiveStrength, kMaterials, "extensions/KHR_materials_emissive_strength/emissiveStrength",
-     "emissiveStrength"},
-    {Property::alphaCutoff, kMaterials, "alphaCutoff", "material"},
-    {Property::transmissionFactor, kMaterials, "extensions/KHR_materials_transmission/transmissionFactor",
-     "transmission"},
-    {Property::diffuseFactor, kMaterials, "extensions/KHR_materials_pbrSpecularGlossiness/diffuseFactor",
-     "specularGlossiness"},
-    {Property::specularFactor, kMaterials, "extensions/KHR_materials_pbrSpecularGlossiness/specularFactor",
-     "specularGlossiness"},
-    {Property::glossinessFactor, kMaterials, "extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor",
-     "specularGlossiness"},
-    {Property::textureOffset, kTransform, "offset", "textureTransform"},
-    {Property::textureRotation, kTransform, "rotation", "textureTransform"},
-    {Property::textureScale, kTransform, "scale", "textureTransform"},
-    {Property::yfov, kCameras, "perspective/yfov", "perspective"},
-    {Property::perspectiveNear, kCameras, "perspective/znear", "perspective"},
-    {Property::perspectiveFar, kCameras, "perspective/zfar", "perspective"},
-    {Property::ymag, kCameras, "orthographic/ymag", "orthographic"},
-    {Property::orthographicNear, kCameras, "orthographic/znear", "orthographic"},
-    {Property::orthographicFar, kCameras, "orthographic/zfar", "orthographic"},
-    {Property::lightColor, kLights, "color", "light"},
-    {Property::lightIntensity, kLights, "intensity", "light"},
-    {Property::lightRange, kLights, "range", "light"},
-    {Property::innerCone, kLights, "spot/innerConeAngle", "spot"},
-    {Property::outerCone, kLights, "spot/outerConeAngle", "spot"},
+using gltf::Camera, gltf::Material, gltf::OrthographicLens, gltf::PerspectiveLens, gltf::PunctualLight;
+using gltf::SpecularGlossiness, gltf::SpotCone, gltf::TextureTransform, gltf::Transmission;
+
+constexpr PropertyRow<Material> kMaterialRows[] = {
+    {"pbrMetallicRoughness/baseColorFactor", "pbr", [](Material& m) { return spanOf(m.baseColorFactor); }},
+    {"pbrMetallicRoughness/metallicFactor", "pbr", [](Material& m) { return spanOf(m.metallicFactor); }},
+    {"pbrMetallicRoughness/roughnessFactor", "pbr", [](Material& m) { return spanOf(m.roughnessFactor); }},
+    {"normalTexture/scale", "normalTexture",
+     [](Material& m) { return m.normalTexture ? spanOf(m.normalScale) : std::span<double>(); }},
+    {"occlusionTexture/strength", "occlusionTexture",
+     [](Material& m) { return m.occlusionTexture ? spanOf(m.occlusionStrength) : std::span<double>(); }},
+    {"emissiveFactor", "material", [](Material& m) { return spanOf(m.emissiveFactor); }},
+    {"extensions/KHR_materials_emissive_strength/emissiveStrength", "emissiveStrength",
+     [](Material& m) { return m.emissiveStrength ? spanOf(*m.emissiveStrength) : std::span<double>(); }},
+    {"alphaCutoff", "material", [](Material& m) { return spanOf(m.alphaCutoff); }},
+    {"extensions/KHR_materials_transmission/transmissionFactor", "transmission",
+     [](Material& m) { return spanIn(m.transmission, &Transmission::factor); }},
+    {"extensions/KHR_materials_pbrSpecularGlossiness/diffuseFactor", "specularGlossiness",
+     [](Material& m) { return spanIn(m.specularGlossiness, &SpecularGlossiness::diffuseFactor); }},
+    {"extensions/KHR_materials_pbrSpecularGlossiness/specularFactor", "specularGlossiness",
+     [](Material& m) { return spanIn(m.specularGlossiness, &SpecularGlossiness::specularFactor); }},
+    {"extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor", "specularGlossiness",
+     [](Material& m) { return spanIn(m.specularGlossiness, &SpecularGlossiness::glossinessFactor); }},
+};
+
+constexpr PropertyRow<TextureTransform> kTransformRows[] = {
+    {"offset", "textureTransform", [](TextureTransform& t) { return spanOf(t.offset); }},
+    {"rotation", "textureTransform", [](TextureTransform& t) { return spanOf(t.rotation); }},
+    {"scale", "textureTransform", [](TextureTransform& t) { return spanOf(t.scale); }},
+};
+
+constexpr PropertyRow<Camera> kCameraRows[] = {
+    {"perspective/yfov", "perspective", [](Camera& c) { return spanIn(c.perspective, &PerspectiveLens::yfov); }},
+    {"perspective/znear", "perspective", [](Camera& c) { return spanIn(c.perspective, &PerspectiveLens::znear); }},
+    {"perspective/zfar", "perspective", [](Camera& c) { return spanIn(c.perspective, &PerspectiveLens::zfar); }},
+    {"orthographic/ymag", "orthographic", [](Camera& c) { return spanIn(c.orthographic, &OrthographicLens::ymag); }},
+    {"orthographic/znear", "orthographic", [](Camera& c) { return spanIn(c.orthographic, &OrthographicLens::znear); }},
+    {"orthographic/zfar", "orthographic", [](Camera& c) { return spanIn(c.orthographic, &OrthographicLens::zfar); }},
+};
+
+constexpr PropertyRow<PunctualLight> kLightRows[] = {
+    {"color", "light",
+     [](PunctualLight& l) {
+       if (!l.color) l.color = glm::dvec3(1);
+       return spanOf(*l.color);
+     }},
+    {"intensity", "light", [](PunctualLight& l) { return spanOf(l.intensity); }},
+    {"range", "light", [](PunctualLight& l) { return spanOf(l.range); }},
+    {"spot/innerConeAngle", "spot", [](PunctualLight& l) { return spanIn(l.spot, &SpotCone::inner); }},
+    {"spot/outerConeAngle", "spot", [](PunctualLight& l) { return spanIn(l.spot, &SpotCone::outer); }},
 };
 
 /// A material's textures by their paths; nullptr where the object that has the texture is missing.
@@ -78,129 +109,56 @@ constexpr TexturePlace kTextures[] = {
      [](gltf::Material& m) { return m.transmission ? &m.transmission->texture : nullptr; }},
 };
 
-std::span<double> spanOf(double& value) {
-  return {&value, 1};
-}
-template <int kSize>
-std::span<double> spanOf(glm::vec<kSize, double>& value) {
-  return {&value[0], std::size_t{kSize}};
+/// nullptr where the material has no such texture, or nothing moves it.
+TextureTransform* transformIn(Material& material, std::size_t texture) {
+  auto* info = kTextures[texture].in(material);
+  return info && *info && (*info)->transform ? &*(*info)->transform : nullptr;
 }
 
-std::span<double> numbersIn(gltf::TextureTransform& transform, Property property) {
-  if (property == Property::textureOffset) return spanOf(transform.offset);
-  return property == Property::textureScale ? spanOf(transform.scale) : spanOf(transform.rotation);
+/// Fills the target from the row of that path; false where there is none, or no number in `holder`.
+template <class Holder, std::size_t kCount>
+bool fillFrom(const PropertyRow<Holder> (&rows)[kCount], std::string_view path, Holder& holder,
+              PropertyTarget& target) {
+  const auto* row = std::ranges::find(rows, path, &PropertyRow<Holder>::path);
+  if (row == std::end(rows)) return false;
+  const std::string_view key = path.substr(path.rfind('/') + 1);
+  const GltfField& field = *std::ranges::find_if(
+      gltfFields(), [&](const GltfField& each) { return each.owner == row->owner && each.key == key; });
+  target.numbers = row->numbers;
+  target.components = row->numbers(holder).size();
+  target.min = field.min;
+  target.max = field.max;
+  target.minExcluded = field.minExcluded;
+  return target.components > 0;
 }
 
-/// Empty where the object that the property stands in is missing.
-std::span<double> numbersIn(gltf::Material& material, const PropertyTarget& target) {
-  auto& glossy = material.specularGlossiness;
-  switch (target.property) {
-    case Property::baseColorFactor:
-      return spanOf(material.baseColorFactor);
-    case Property::metallicFactor:
-      return spanOf(material.metallicFactor);
-    case Property::roughnessFactor:
-      return spanOf(material.roughnessFactor);
-    case Property::normalScale:
-      return material.normalTexture ? spanOf(material.normalScale) : std::span<double>();
-    case Property::occlusionStrength:
-      return material.occlusionTexture ? spanOf(material.occlusionStrength) : std::span<double>();
-    case Property::emissiveFactor:
-      return spanOf(material.emissiveFactor);
-    case Property::emissiveStrength:
-      return material.emissiveStrength ? spanOf(*material.emissiveStrength) : std::span<double>();
-    case Property::alphaCutoff:
-      return spanOf(material.alphaCutoff);
-    case Property::transmissionFactor:
-      return material.transmission ? spanOf(material.transmission->factor) : std::span<double>();
-    case Property::diffuseFactor:
-      return glossy ? spanOf(glossy->diffuseFactor) : std::span<double>();
-    case Property::specularFactor:
-      return glossy ? spanOf(glossy->specularFactor) : std::span<double>();
-    case Property::glossinessFactor:
-      return glossy ? spanOf(glossy->glossinessFactor) : std::span<double>();
-    default:
-      break;
-  }
-  auto* info = kTextures[target.texture].in(material);
-  return info && *info && (*info)->transform ? numbersIn(*(*info)->transform, target.property) : std::span<double>();
-}
-
-std::span<double> numbersIn(gltf::Camera& camera, const PropertyTarget& target) {
-  if (auto& lens = camera.perspective) {
-    if (target.property == Property::yfov) return spanOf(lens->yfov);
-    if (target.property == Property::perspectiveNear) return spanOf(lens->znear);
-    if (target.property == Property::perspectiveFar) return spanOf(lens->zfar);
-  }
-  if (auto& lens = camera.orthographic) {
-    if (target.property == Property::ymag) return spanOf(lens->ymag);
-    if (target.property == Property::orthographicNear) return spanOf(lens->znear);
-    if (target.property == Property::orthographicFar) return spanOf(lens->zfar);
-  }
-  return {};
-}
-
-std::span<double> numbersIn(gltf::PunctualLight& light, const PropertyTarget& target) {
-  switch (target.property) {
-    case Property::lightColor:
-      if (!light.color) light.color = glm::dvec3(1);
-      return spanOf(*light.color);
-    case Property::lightIntensity:
-      return spanOf(light.intensity);
-    case Property::lightRange:
-      return spanOf(light.range);
-    default:
-      break;
-  }
-  if (!light.spot) return {};
-  return spanOf(target.property == Property::innerCone ? light.spot->inner : light.spot->outer);
-}
-
-const PropertyRow* rowOf(std::string_view root, std::string_view path) {
-  const auto* row = std::ranges::find_if(kRows, [&](const PropertyRow& r) { return r.root == root && r.path == path; });
-  return row == std::end(kRows) ? nullptr : row;
-}
-
-const GltfField& fieldOf(const PropertyRow& row) {
-  const std::string_view key = row.path.substr(row.path.rfind('/') + 1);
-  return *std::ranges::find_if(gltfFields(),
-                               [&](const GltfField& field) { return field.owner == row.owner && field.key == key; });
-}
-
-/// Finds the row, and which texture it belongs to.
-const PropertyRow* findRow(std::string_view root, std::string_view path, std::size_t& texture) {
-  if (root != kMaterials) return rowOf(root, path);
-  for (std::size_t i = 0; i < std::size(kTextures); ++i) {
-    const std::string_view start = kTextures[i].path;
+bool fill(std::string_view path, Material& material, PropertyTarget& target) {
+  for (target.texture = 0; target.texture < std::size(kTextures); ++target.texture) {
+    const std::string_view start = kTextures[target.texture].path;
     if (!path.starts_with(start) || !path.substr(start.size()).starts_with(kTransform)) continue;
-    texture = i;
-    return rowOf(kTransform, path.substr(start.size() + kTransform.size()));
+    auto* transform = transformIn(material, target.texture);
+    return transform && fillFrom(kTransformRows, path.substr(start.size() + kTransform.size()), *transform, target);
   }
-  return rowOf(root, path);
+  return fillFrom(kMaterialRows, path, material, target);
+}
+bool fill(std::string_view path, Camera& camera, PropertyTarget& target) {
+  return fillFrom(kCameraRows, path, camera, target);
+}
+bool fill(std::string_view path, PunctualLight& light, PropertyTarget& target) {
+  return fillFrom(kLightRows, path, light, target);
 }
 
 /// The property of one of `holders`, the elements of the array that `root` names.
 template <class Holder>
 std::optional<PropertyTarget> propertyBelow(const std::vector<Holder>& holders, std::string_view root,
                                             const std::string& pointer) {
-  std::string_view path = std::string_view(pointer).substr(root.size());
+  const std::string_view path = std::string_view(pointer).substr(root.size());
   const std::size_t slash = std::min(path.find('/'), path.size());
   const auto index = indexIn(path.substr(0, slash), holders.size());
   if (!index || slash == path.size()) return std::nullopt;
-  PropertyTarget target;
-  const PropertyRow* row = findRow(root, path.substr(slash + 1), target.texture);
-  if (row == nullptr) return std::nullopt;
-  target.pointer = pointer;
-  target.property = row->property;
-  target.index = *index;
+  PropertyTarget target{.pointer = pointer, .index = *index};
   Holder holder = holders[*index];
-  target.components = numbersIn(holder, target).size();
-  if (target.components == 0) return std::nullopt;
-  const GltfField& field = fieldOf(*row);
-  target.min = field.min;
-  target.max = field.max;
-  target.minExcluded = field.minExcluded;
-  return target;
+  return fill(path.substr(slash + 1), holder, target) ? std::optional(target) : std::nullopt;
 }
 
 } // namespace
@@ -213,9 +171,24 @@ std::optional<PropertyTarget> propertyAt(const gltf::Model& model, const std::st
 }
 
 std::span<double> numbersOf(Properties& properties, const PropertyTarget& target) {
-  if (target.property >= Property::lightColor) return numbersIn(properties.lights[target.index], target);
-  if (target.property >= Property::yfov) return numbersIn(properties.cameras[target.index], target);
-  return numbersIn(properties.materials[target.index], target);
+  struct Finder {
+    Properties& properties;
+    const PropertyTarget& target;
+
+    std::span<double> operator()(NumbersIn<gltf::Material> numbers) const {
+      return numbers(properties.materials[target.index]);
+    }
+    std::span<double> operator()(NumbersIn<gltf::TextureTransform> numbers) const {
+      return numbers(*transformIn(properties.materials[target.index], target.texture));
+    }
+    std::span<double> operator()(NumbersIn<gltf::Camera> numbers) const {
+      return numbers(properties.cameras[target.index]);
+    }
+    std::span<double> operator()(NumbersIn<gltf::PunctualLight> numbers) const {
+      return numbers(properties.lights[target.index]);
+    }
+  };
+  return std::visit(Finder{properties, target}, target.numbers);
 }
 
 std::optional<std::size_t> indexIn(std::string_view token, std::size_t size) {

@@ -6,46 +6,23 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "renderer/scene/document/gltf_model.h"
 
 namespace gnomon {
 
-/// What KHR_animation_pointer moves of a material, camera or light.
-enum class Property {
-  baseColorFactor,
-  metallicFactor,
-  roughnessFactor,
-  normalScale,
-  occlusionStrength,
-  emissiveFactor,
-  emissiveStrength,
-  alphaCutoff,
-  transmissionFactor,
-  diffuseFactor,
-  specularFactor,
-  glossinessFactor,
-  textureOffset,
-  textureRotation,
-  textureScale,
-  yfov,
-  perspectiveNear,
-  perspectiveFar,
-  ymag,
-  orthographicNear,
-  orthographicFar,
-  lightColor,
-  lightIntensity,
-  lightRange,
-  innerCone,
-  outerCone
-};
+/// The numbers of a property in what it belongs to; empty where the object that it stands in is missing.
+template <class Holder>
+using NumbersIn = std::span<double> (*)(Holder&);
 
-/// One of them, found in a file.
+/// What KHR_animation_pointer moves of a material, camera or light, found in a file.
 struct PropertyTarget {
   std::string pointer; ///< into the file's JSON (RFC 6901)
-  Property property = Property::baseColorFactor;
+  std::variant<NumbersIn<gltf::Material>, NumbersIn<gltf::TextureTransform>, NumbersIn<gltf::Camera>,
+               NumbersIn<gltf::PunctualLight>>
+      numbers{};
   std::size_t index = 0;                                 ///< of the material, camera or light
   std::size_t texture = 0;                               ///< of a texture's transform: which of the material's textures
   std::size_t components = 1;                            ///< 1 to 4

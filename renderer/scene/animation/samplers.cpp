@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 
 namespace gnomon {
 
@@ -64,27 +65,15 @@ bool makeRotationsUnit(const std::string& pointer, Sampler& sampler, Findings& f
   return true;
 }
 
-/// Cosine of the angle from which two rotations are too close for a division by its sine.
-constexpr double kNearlySame = 1 - 1e-9;
-
 void copyKeyframe(const Sampler& sampler, std::size_t keyframe, std::span<double> value) {
   std::copy_n(valueOf(sampler, keyframe), sampler.components, value.begin());
 }
 
 /// The shorter way around (glTF 2.0, C.4).
 void slerp(const float* from, const float* to, double share, std::span<double> value) {
-  double cosine = 0;
-  for (std::size_t i = 0; i < 4; ++i) cosine += double{from[i]} * double{to[i]};
-  const double side = cosine < 0 ? -1 : 1;
-  cosine = std::min(std::abs(cosine), 1.0);
-  double first = 1 - share;
-  double second = share;
-  if (cosine < kNearlySame) {
-    const double angle = std::acos(cosine);
-    first = std::sin((1 - share) * angle) / std::sin(angle);
-    second = std::sin(share * angle) / std::sin(angle);
-  }
-  for (std::size_t i = 0; i < 4; ++i) value[i] = first * double{from[i]} + side * second * double{to[i]};
+  const auto rotation = [](const float* q) { return glm::dquat(q[3], q[0], q[1], q[2]); };
+  const glm::dquat between = glm::slerp(rotation(from), rotation(to), share);
+  for (int i = 0; i < 4; ++i) value[static_cast<std::size_t>(i)] = between[i];
 }
 
 /// Hermite's spline, tangents per second (glTF 2.0, C.5).
