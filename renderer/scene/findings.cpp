@@ -76,7 +76,7 @@ void Findings::repair(const Repair& kind, const std::string& pointer, const std:
   count({kind, pointer, limit, actual});
 }
 
-std::string Findings::leaveOut(Findings part, const std::string& remedy) {
+std::string Findings::leaveOut(Findings part, const std::string& remedy, bool losesTriangles) {
   Problems problems = part.takeProblems();
   take(std::move(part));
   std::string why;
@@ -87,7 +87,7 @@ std::string Findings::leaveOut(Findings part, const std::string& remedy) {
     }
     if (why.empty()) why = problem.detail + (problem.pointer.empty() ? "" : " (" + problem.pointer + ")");
     if (problem.detail.ends_with('.')) problem.detail.pop_back();
-    repair({std::move(problem.detail), remedy}, problem.pointer, problem.limit, problem.actual);
+    repair({std::move(problem.detail), remedy, losesTriangles}, problem.pointer, problem.limit, problem.actual);
   }
   return why;
 }

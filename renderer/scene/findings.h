@@ -48,8 +48,9 @@ class Findings {
               const std::string& actual = {});
 
   /// What was found in a part of the file: its repairs are taken, and its problems become repairs by which the part is
-  /// left out, but for limits, which refuse. `remedy`: as in a Repair. The first of the problems; empty = it is sound.
-  std::string leaveOut(Findings part, const std::string& remedy);
+  /// left out, but for limits, which refuse. `remedy`, `losesTriangles`: as in a Repair. The first of the problems;
+  /// empty = it is sound.
+  std::string leaveOut(Findings part, const std::string& remedy, bool losesTriangles = false);
 
   /// Whether a repair lost triangles.
   bool lostTriangles() const;

@@ -13,7 +13,6 @@
 #include "renderer/scene/document/gltf_document.h"
 #include "renderer/scene/findings.h"
 #include "renderer/scene/geometry/accessor_checks.h"
-#include "renderer/scene/geometry/accessor_content.h"
 #include "renderer/scene/geometry/mesh_build.h"
 #include "renderer/scene/geometry/mesh_source.h"
 #include "renderer/scene/graph/attachments.h"

@@ -1,6 +1,7 @@
 #include "renderer/scene/decode/draco_primitives.h"
 
 #include <algorithm>
+#include <array>
 #include <draco/mesh/mesh.h>
 #include <set>
 
@@ -13,26 +14,22 @@ namespace {
 
 constexpr const char* kExtension = "KHR_draco_mesh_compression";
 
-const char* typeName(ComponentType type) {
-  switch (type) {
-    case ComponentType::int8:
-      return "BYTE";
-    case ComponentType::uint8:
-      return "UNSIGNED_BYTE";
-    case ComponentType::int16:
-      return "SHORT";
-    case ComponentType::uint16:
-      return "UNSIGNED_SHORT";
-    case ComponentType::uint32:
-      return "UNSIGNED_INT";
-    case ComponentType::float32:
-      break;
-  }
-  return "FLOAT";
-}
+struct TypeRow {
+  draco::DataType draco;
+  ComponentType type;
+  const char* name; ///< glTF's
+};
+
+/// Those that a glTF may have.
+constexpr std::array<TypeRow, 6> kTypes{{{draco::DT_INT8, ComponentType::int8, "BYTE"},
+                                         {draco::DT_UINT8, ComponentType::uint8, "UNSIGNED_BYTE"},
+                                         {draco::DT_INT16, ComponentType::int16, "SHORT"},
+                                         {draco::DT_UINT16, ComponentType::uint16, "UNSIGNED_SHORT"},
+                                         {draco::DT_UINT32, ComponentType::uint32, "UNSIGNED_INT"},
+                                         {draco::DT_FLOAT32, ComponentType::float32, "FLOAT"}}};
 
 std::string shapeText(ComponentType type, int components) {
-  return std::to_string(components) + " x " + typeName(type);
+  return std::to_string(components) + " x " + std::ranges::find(kTypes, type, &TypeRow::type)->name;
 }
 
 class PrimitiveDecoding {
@@ -134,23 +131,6 @@ class PrimitiveDecoding {
 
 } // namespace
 
-namespace {
-
-/// Problems of limits refuse the file; others leave out the primitive.
-void leaveOut(Problems problems, Findings& findings) {
-  for (Problem& problem : problems) {
-    if (problem.code == ProblemCode::tooLarge) {
-      findings.refuse(std::move(problem));
-      continue;
-    }
-    if (problem.detail.ends_with('.')) problem.detail.pop_back();
-    findings.repair({std::move(problem.detail), "the primitive is left out", true}, problem.pointer, problem.limit,
-                    problem.actual);
-  }
-}
-
-} // namespace
-
 DracoPrimitives decodeDracoPrimitives(const LoadContext& load) {
   const gltf::Model& model = load.document.model;
   DracoPrimitives decoded;
@@ -163,8 +143,7 @@ DracoPrimitives decodeDracoPrimitives(const LoadContext& load) {
       const std::string pointer = pointerTo(pointerTo("/meshes", m) + "/primitives", p);
       Findings ofPrimitive;
       auto primitive = PrimitiveDecoding(load, mesh.primitives[p], pointer, ofPrimitive).decode(budget);
-      if (!primitive) leaveOut(ofPrimitive.takeProblems(), load.findings);
-      load.findings.take(std::move(ofPrimitive));
+      load.findings.leaveOut(std::move(ofPrimitive), "the primitive is left out", true);
       if (load.findings.refused()) return {};
       if (primitive) decoded.emplace(std::pair(m, p), *std::move(primitive));
     }
@@ -174,31 +153,12 @@ DracoPrimitives decodeDracoPrimitives(const LoadContext& load) {
 
 namespace {
 
-std::optional<ComponentType> typeOf(draco::DataType type) {
-  switch (type) {
-    case draco::DT_INT8:
-      return ComponentType::int8;
-    case draco::DT_UINT8:
-      return ComponentType::uint8;
-    case draco::DT_INT16:
-      return ComponentType::int16;
-    case draco::DT_UINT16:
-      return ComponentType::uint16;
-    case draco::DT_UINT32:
-      return ComponentType::uint32;
-    case draco::DT_FLOAT32:
-      return ComponentType::float32;
-    default:
-      return std::nullopt;
-  }
-}
-
 /// One value a point; nothing where the attribute is none that a glTF may have.
 std::optional<DracoAttribute> attributeOf(const draco::PointAttribute& source, std::uint32_t points) {
-  const auto type = typeOf(source.data_type());
-  if (!type || source.num_components() < 1 || source.num_components() > 4) return std::nullopt;
-  DracoAttribute attribute{*type, source.num_components(), {}};
-  const std::size_t bytes = bytesOf(*type) * static_cast<std::size_t>(attribute.components);
+  const auto* row = std::ranges::find(kTypes, source.data_type(), &TypeRow::draco);
+  if (row == kTypes.end() || source.num_components() < 1 || source.num_components() > 4) return std::nullopt;
+  DracoAttribute attribute{row->type, source.num_components(), {}};
+  const std::size_t bytes = bytesOf(row->type) * static_cast<std::size_t>(attribute.components);
   if (source.byte_stride() != static_cast<std::int64_t>(bytes)) return std::nullopt;
   attribute.bytes.resize(bytes * points);
   for (std::uint32_t point = 0; point < points; ++point) {

@@ -1,6 +1,7 @@
 #include "renderer/scene/decode/meshopt.h"
 
 #include <algorithm>
+#include <array>
 #include <meshoptimizer.h>
 
 #include "renderer/core/stop.h"
@@ -22,22 +23,19 @@ bool strideFits(std::uint64_t stride, MeshoptMode mode, MeshoptFilter filter) {
   return filter == MeshoptFilter::quaternion ? stride == 8 : stride % 4 == 0;
 }
 
-/// What the first byte of a stream holds: the format in the upper four bits, its version in the lower four.
-struct StreamKind {
+/// What a mode's streams are: the format in the upper four bits of the first byte, its version in the lower four.
+struct Stream {
   std::uint8_t format = 0;
   std::uint8_t newestVersion = 0;
+  int (*decode)(void* elements, std::size_t count, std::size_t stride, const unsigned char* bytes, std::size_t size);
 };
 
-StreamKind kindOf(MeshoptMode mode) {
-  switch (mode) {
-    case MeshoptMode::attributes:
-      return {0xA0, 0};
-    case MeshoptMode::triangles:
-      return {0xE0, 1};
-    case MeshoptMode::indices:
-      break;
-  }
-  return {0xD0, 1};
+constexpr std::array<Stream, 3> kStreams{{{0xA0, 0, meshopt_decodeVertexBuffer},
+                                          {0xE0, 1, meshopt_decodeIndexBuffer},
+                                          {0xD0, 1, meshopt_decodeIndexSequence}}};
+
+const Stream& streamOf(MeshoptMode mode) {
+  return kStreams[static_cast<std::size_t>(mode)];
 }
 
 /// The fewest bytes that hold the elements (EXT_meshopt_compression, Appendix A): a triangle takes a byte and an index
@@ -64,7 +62,7 @@ bool mayHold(const gltf::Meshopt& view, const std::string& pointer, std::span<co
                      std::to_string(view.count) + " elements, which take " + std::to_string(fewest) + " or more");
     return false;
   }
-  const StreamKind kind = kindOf(view.mode);
+  const Stream& kind = streamOf(view.mode);
   const std::uint8_t header = compressed.front();
   if ((header & 0xF0) == kind.format && (header & 0x0F) > kind.newestVersion) {
     findings.unsupported(pointer, "The compressed data has version " + std::to_string(header & 0x0F) +
@@ -72,21 +70,6 @@ bool mayHold(const gltf::Meshopt& view, const std::string& pointer, std::span<co
     return false;
   }
   return true;
-}
-
-bool decode(const gltf::Meshopt& view, std::span<const std::uint8_t> compressed, Bytes& elements) {
-  switch (view.mode) {
-    case MeshoptMode::attributes:
-      return meshopt_decodeVertexBuffer(elements.data(), view.count, view.byteStride, compressed.data(),
-                                        compressed.size()) == 0;
-    case MeshoptMode::triangles:
-      return meshopt_decodeIndexBuffer(elements.data(), view.count, view.byteStride, compressed.data(),
-                                       compressed.size()) == 0;
-    case MeshoptMode::indices:
-      break;
-  }
-  return meshopt_decodeIndexSequence(elements.data(), view.count, view.byteStride, compressed.data(),
-                                     compressed.size()) == 0;
 }
 
 void applyFilter(const gltf::Meshopt& view, Bytes& elements) {
@@ -161,7 +144,8 @@ Bytes decodeMeshopt(const gltf::Meshopt& view, const std::string& pointer, std::
   if (!mayHold(view, pointer, compressed, findings)) return {};
   if (!budget.take(view.decodedBytes(), pointer + "/count", findings)) return {};
   Bytes elements(view.decodedBytes());
-  if (!decode(view, compressed, elements)) {
+  if (streamOf(view.mode).decode(elements.data(), view.count, view.byteStride, compressed.data(), compressed.size()) !=
+      0) {
     findings.invalid(pointer, "The compressed data is damaged.");
     return {};
   }

@@ -55,36 +55,11 @@ std::uint32_t unsignedAt(const std::uint8_t* bytes, ComponentType type) {
 }
 
 std::size_t bytesOf(ComponentType type) {
-  switch (type) {
-    case ComponentType::int8:
-    case ComponentType::uint8:
-      return 1;
-    case ComponentType::int16:
-    case ComponentType::uint16:
-      return 2;
-    case ComponentType::uint32:
-    case ComponentType::float32:
-      break;
-  }
-  return 4;
+  return type <= ComponentType::uint8 ? 1 : type <= ComponentType::uint16 ? 2 : 4;
 }
 
 int componentsOf(ElementType type) {
-  switch (type) {
-    case ElementType::scalar:
-      return 1;
-    case ElementType::vec2:
-      return 2;
-    case ElementType::vec3:
-      return 3;
-    case ElementType::vec4:
-      return 4;
-    case ElementType::mat2:
-    case ElementType::mat3:
-    case ElementType::mat4:
-      break;
-  }
-  return 0;
+  return type <= ElementType::vec4 ? static_cast<int>(type) + 1 : 0;
 }
 
 const std::uint8_t* AccessorView::sparseBytes(std::size_t element) const {

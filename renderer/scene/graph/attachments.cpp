@@ -121,10 +121,6 @@ double brightest(const gltf::PunctualLight& light) {
   return light.color ? std::max({1.0, (*light.color)[0], (*light.color)[1], (*light.color)[2]}) : 1.0;
 }
 
-} // namespace
-
-namespace {
-
 void checkCone(gltf::SpotCone& cone, const std::string& pointer, Findings& findings) {
   if (cone.inner < cone.outer) return;
   if (cone.inner - cone.outer > kConeRounding) {
