@@ -13,13 +13,7 @@ Problem mistake(const std::string& detail) {
 
 /// Null where the layer is not a float image whose pixels match its size and channels.
 const std::vector<float>* floatsOf(const ImageLayer& layer) {
-  if (!layer.image || layer.image->width <= 0 || layer.image->height <= 0 || layer.image->channels.empty()) {
-    return nullptr;
-  }
-  const auto* pixels = std::get_if<std::vector<float>>(&layer.image->pixels);
-  const std::size_t count = static_cast<std::size_t>(layer.image->width) *
-                            static_cast<std::size_t>(layer.image->height) * layer.image->channels.size();
-  return pixels && pixels->size() == count ? pixels : nullptr;
+  return layer.image ? pixelsAs<float>(*layer.image) : nullptr;
 }
 
 bool isColor(const std::string& channel) {

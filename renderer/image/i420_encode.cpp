@@ -71,15 +71,12 @@ void chromaRow(const Pixels& pixels, std::size_t y, std::uint8_t* cb, std::uint8
 } // namespace
 
 Result<Bytes> encodeI420(const Image& image) {
-  const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&image.pixels);
-  const std::size_t channels = image.channels.size();
-  const auto width = static_cast<std::size_t>(std::max(image.width, 0));
-  const auto height = static_cast<std::size_t>(std::max(image.height, 0));
-  if (!bytes || bytes->empty() || (channels != 1 && channels != 3 && channels != 4) ||
-      bytes->size() != width * height * channels) {
+  const auto* bytes = pixelsAs<std::uint8_t>(image);
+  if (!bytes || !isPicture(image)) {
     return Problem{ProblemCode::internal, "", "A video needs 8-bit images of 1, 3 or 4 channels.", "", ""};
   }
-  const Pixels pixels{bytes->data(), width, height, channels};
+  const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
+  const Pixels pixels{bytes->data(), width, height, image.channels.size()};
   const std::size_t halfWidth = (width + 1) / 2, halfHeight = (height + 1) / 2;
   Bytes planes(width * height + 2 * halfWidth * halfHeight);
   std::uint8_t* const cb = planes.data() + width * height;

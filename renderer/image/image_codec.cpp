@@ -9,9 +9,7 @@
 #include "renderer/image/exr_encode.h"
 #include "renderer/image/exr_layout.h"
 #include "renderer/image/image_container.h"
-#include "renderer/image/jpeg_decode.h"
-#include "renderer/image/png_decode.h"
-#include "renderer/image/webp_decode.h"
+#include "renderer/image/picture_decode.h"
 
 namespace gnomon {
 namespace {

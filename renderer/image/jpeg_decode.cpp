@@ -1,5 +1,3 @@
-#include "renderer/image/jpeg_decode.h"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -8,6 +6,7 @@
 
 #include "renderer/core/stop.h"
 #include "renderer/image/jpeg_errors.h"
+#include "renderer/image/picture_decode.h"
 
 namespace gnomon {
 namespace {

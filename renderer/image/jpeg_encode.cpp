@@ -79,11 +79,8 @@ bool writeJpeg(jpeg_compress_struct& codec, JpegErrors& errors, JpegFile& file, 
 } // namespace
 
 Result<Bytes> encodeJpeg(const Image& image, int quality) {
-  const auto* pixels = std::get_if<std::vector<std::uint8_t>>(&image.pixels);
-  const std::size_t channels = image.channels.size();
-  const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * channels;
-  if (!pixels || image.width <= 0 || image.height <= 0 || (channels != 1 && channels != 3 && channels != 4) ||
-      pixels->size() != count) {
+  const auto* pixels = pixelsAs<std::uint8_t>(image);
+  if (!pixels || !isPicture(image)) {
     return Problem{ProblemCode::internal, "", "A JPEG needs an 8-bit image of 1, 3 or 4 channels.", "", ""};
   }
   Bytes bytes;

@@ -50,14 +50,9 @@ std::vector<std::int32_t> wholeNumbers(const std::vector<float>& floats) {
 } // namespace
 
 Result<Bytes> encodeNpy(const Image& image, ArrayNumbers numbers) {
-  const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&image.pixels);
-  const auto* floats = std::get_if<std::vector<float>>(&image.pixels);
-  const std::size_t count =
-      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * image.channels.size();
-  if (image.width <= 0 || image.height <= 0 || count == 0 ||
-      (bytes    ? bytes->size()
-       : floats ? floats->size()
-                : 0) != count) {
+  const auto* bytes = pixelsAs<std::uint8_t>(image);
+  const auto* floats = pixelsAs<float>(image);
+  if (!bytes && !floats) {
     return Problem{ProblemCode::internal, "", "An array needs an image of bytes or floats of its own size.", "", ""};
   }
   if (bytes) return npyFile(image, "|u1", *bytes);

@@ -1,6 +1,4 @@
 // "Portable Network Graphics (PNG) Specification", W3C.
-#include "renderer/image/png_decode.h"
-
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "renderer/core/stop.h"
+#include "renderer/image/picture_decode.h"
 #include "renderer/image/png_chunks.h"
 #include "renderer/image/png_rows.h"
 

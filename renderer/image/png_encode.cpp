@@ -185,13 +185,10 @@ PngStripe stripeOf(const PngFormat& format, const std::vector<std::uint16_t>& pi
 
 template <class Number>
 Result<Bytes> encodePixels(const PngFormat& format, const std::vector<Number>& pixels) {
-  const auto failure = [](const char* what) { return Problem{ProblemCode::internal, "", what, "", ""}; };
-  if (format.rowBytes() * format.stripeRows() > kMaxStripeBytes) return failure("The image is too wide for a PNG.");
-  const std::size_t row = format.rowBytes() / sizeof(Number);
-  if (pixels.size() != row * static_cast<std::size_t>(format.height)) {
-    return failure("A PNG needs as many samples as its size says.");
+  if (format.rowBytes() * format.stripeRows() > kMaxStripeBytes) {
+    return Problem{ProblemCode::internal, "", "The image is too wide for a PNG.", "", ""};
   }
-  const std::size_t stripe = row * format.stripeRows();
+  const std::size_t stripe = format.rowBytes() / sizeof(Number) * format.stripeRows();
   std::vector<PngStripe> stripes(format.stripeCount());
   forEachPiece(pixels.size(), stripe, [&](std::size_t first, std::size_t last) {
     stripes[first / stripe] = stripeOf(format, pixels, first, last);
@@ -202,18 +199,16 @@ Result<Bytes> encodePixels(const PngFormat& format, const std::vector<Number>& p
 } // namespace
 
 Result<Bytes> encodePng(const Image& image, int level) {
-  const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&image.pixels);
-  const auto* words = std::get_if<std::vector<std::uint16_t>>(&image.pixels);
-  const std::size_t channels = image.channels.size();
-  if ((!bytes && !words) || image.width <= 0 || image.height <= 0 ||
-      (channels != 1 && channels != 3 && channels != 4)) {
+  const auto* bytes = pixelsAs<std::uint8_t>(image);
+  const auto* words = pixelsAs<std::uint16_t>(image);
+  if ((!bytes && !words) || !isPicture(image)) {
     return Problem{ProblemCode::internal, "", "A PNG needs an image of 8 or 16 bits and 1, 3 or 4 channels.", "", ""};
   }
   if (level < 0 || level > 9) {
     return Problem{ProblemCode::invalidValue, "", "The PNG compression level is out of range.", "0..9",
                    std::to_string(level)};
   }
-  const PngFormat format{image.width, image.height, static_cast<int>(channels), level, words ? 16 : 8};
+  const PngFormat format{image.width, image.height, static_cast<int>(image.channels.size()), level, words ? 16 : 8};
   return words ? encodePixels(format, *words) : encodePixels(format, *bytes);
 }
 

@@ -139,12 +139,9 @@ bool writeStrips(TIFF* tiff, std::span<const std::uint8_t> pixels, std::size_t s
 } // namespace
 
 Result<Bytes> encodeTiff(const Image& image) {
-  const auto* floats = std::get_if<std::vector<float>>(&image.pixels);
+  const auto* floats = pixelsAs<float>(image);
+  if (!floats) return Problem{ProblemCode::internal, "", "A TIFF needs a float image of its own size.", "", ""};
   const std::size_t row = static_cast<std::size_t>(image.width) * image.channels.size();
-  if (!floats || image.width <= 0 || image.height <= 0 || row == 0 ||
-      floats->size() != row * static_cast<std::size_t>(image.height)) {
-    return Problem{ProblemCode::internal, "", "A TIFF needs a float image of its own size.", "", ""};
-  }
   constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max() / 16 * 15; // deflate may add a little
   if (floats->size() * sizeof(float) > kMost) {
     return Problem{ProblemCode::tooLarge, "", "The picture is too large for a TIFF.", std::to_string(kMost) + " bytes",

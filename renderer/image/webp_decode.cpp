@@ -1,11 +1,11 @@
-#include "renderer/image/webp_decode.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <memory>
 #include <new>
 #include <webp/decode.h>
+
+#include "renderer/image/picture_decode.h"
 
 namespace gnomon {
 

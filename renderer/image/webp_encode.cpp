@@ -47,11 +47,8 @@ bool take(Picture& picture, const std::vector<std::uint8_t>& pixels, std::size_t
 
 Result<Bytes> encodeWebp(const Image& image, int quality) {
   static_assert(kMaxWebpSide == WEBP_MAX_DIMENSION);
-  const auto* pixels = std::get_if<std::vector<std::uint8_t>>(&image.pixels);
-  const std::size_t channels = image.channels.size();
-  const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * channels;
-  if (!pixels || image.width <= 0 || image.height <= 0 || (channels != 1 && channels != 3 && channels != 4) ||
-      pixels->size() != count) {
+  const auto* pixels = pixelsAs<std::uint8_t>(image);
+  if (!pixels || !isPicture(image)) {
     return Problem{ProblemCode::internal, "", "A WebP needs an 8-bit image of 1, 3 or 4 channels.", "", ""};
   }
   if (image.width > kMaxWebpSide || image.height > kMaxWebpSide) {
@@ -72,7 +69,7 @@ Result<Bytes> encodeWebp(const Image& image, int quality) {
   picture.custom_ptr = &file;
   picture.progress_hook = goesOn;
   stopIfAsked();
-  if (take(picture, *pixels, channels) && WebPEncode(&config, &picture) != 0) return file;
+  if (take(picture, *pixels, image.channels.size()) && WebPEncode(&config, &picture) != 0) return file;
   stopIfAsked();
   return Problem{ProblemCode::internal, "", "The WebP could not be written.", "", std::to_string(picture.error_code)};
 }

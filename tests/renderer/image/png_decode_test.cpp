@@ -1,5 +1,3 @@
-#include "renderer/image/png_decode.h"
-
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
@@ -7,6 +5,7 @@
 #include <zlib.h>
 
 #include "renderer/image/image_codec.h"
+#include "renderer/image/picture_decode.h"
 #include "tests/renderer/image/png_builder.h"
 #include "tests/renderer/image/rows_of.h"
 
