@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-/// Addresses that a key has signed, for those who can't send a key: the pictures of a page.
+/// Addresses signed with a key, for requests that can't send one: the pictures of a page.
 namespace gnomon {
 
 /// The query keys that signing adds, in this order, at the end.

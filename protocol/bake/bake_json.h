@@ -11,7 +11,7 @@
 namespace gnomon {
 
 /// The parts of a frame's spec that decide what is baked for it; the rest has its defaults. A target stays, since no
-/// settings can be chosen without a camera, and whoever bakes refuses it.
+/// settings can be chosen without a camera, and the bake refuses it.
 FrameSpec bakedParts(const FrameSpec& spec);
 
 /// Names a bake: SHA-256 of a scene's id and of those parts, as 64 lower-case hexadecimal digits.

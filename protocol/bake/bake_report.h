@@ -5,28 +5,29 @@
 
 #include "protocol/report/frame_report.h"
 
+/// Rows of the fields: bake_rows.h.
 namespace gnomon {
 
 /// One light's shadow, baked.
 struct BakedLightReport {
-  int light = 0; ///< index into the lights of the spec, or of the scene where that has none
+  int light = 0;
   LightMapReport lightMap{};
 };
 
 /// What baking ahead made.
 struct BakeReport {
-  std::string key{};                      ///< of the scene and of what the bake depends on: 64 hexadecimal digits
-  std::vector<BakedLightReport> lights{}; ///< those of technique lightMap
-  double milliseconds = 0;                ///< of all of it, what was found ready included
+  std::string key{};
+  std::vector<BakedLightReport> lights{};
+  double milliseconds = 0;
 };
 
 /// How far a bake has come.
 struct BakeStep {
   std::string key{};
-  int light = 0;    ///< index of the light that is baked
-  double share = 0; ///< of its texels that are done, 0..1
-  int done = 0;     ///< lights that are finished
-  int of = 0;       ///< of all that are to be baked
+  int light = 0;
+  double share = 0;
+  int done = 0;
+  int of = 0;
 };
 
 } // namespace gnomon

@@ -41,7 +41,7 @@ std::string base64Text(std::span<const std::uint8_t> bytes);
 
 enum class Base64Padding { required, optional };
 
-/// The bytes that a base64 text stands for; nothing if a character or the length is wrong.
+/// The bytes of a base64 text; nothing if a character or the length is wrong.
 std::optional<Bytes> base64Bytes(std::string_view text, Base64Padding padding = Base64Padding::required);
 
 /// `text` with its percent escapes decoded (RFC 3986, section 2.1); nothing if an escape is broken.
@@ -50,7 +50,7 @@ std::optional<std::string> percentDecoded(std::string_view text);
 /// The scheme of a URI (RFC 3986, section 3.1) in lower case; empty for a relative reference.
 std::string schemeOf(std::string_view uri);
 
-/// Whether two texts are the same, in a time that tells only whether their lengths are: for secrets.
+/// Whether two texts are the same, in a time that reveals only whether their lengths are equal: for secrets.
 bool equalInConstantTime(std::string_view a, std::string_view b);
 
 /// HMAC-SHA256 (RFC 2104) of a text under a secret key: 64 lower-case digits.

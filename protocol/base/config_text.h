@@ -18,7 +18,7 @@ struct ConfigEntry {
   bool isList = false;
 };
 
-/// What stands below a [NAME] line; of a file's first section, which has no name, above all of them.
+/// The entries below a [NAME] line; of a file's first section, which has no name, those above all such lines.
 struct ConfigSection {
   int line = 0; ///< of the name; 0 of the first
   std::string name;

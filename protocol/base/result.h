@@ -33,7 +33,7 @@ enum class ProblemCode {
   internal              ///< our own mistake
 };
 
-/// One thing that is wrong, told so that the user can mend it.
+/// One problem, described so that the user can fix it.
 struct Problem {
   ProblemCode code = ProblemCode::internal;
   std::string pointer{}; ///< where: a JSON pointer ("/camera/eye/0"), a query key, a part name; empty = the whole
@@ -76,7 +76,7 @@ class ProblemList {
   std::size_t leftOut_ = 0;
 };
 
-/// A value, or every problem that stood in its way (at least one).
+/// A value, or the problems that prevented it (at least one).
 template <class T>
 class [[nodiscard]] Result {
  public:

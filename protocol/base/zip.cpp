@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint16_t kVersion = 20;            ///< 2.0: deflate
 constexpr std::uint16_t kZip64Version = 45;       ///< 4.5
 constexpr std::uint16_t kFirstDay = (1 << 5) | 1; ///< 1 January 1980
-constexpr std::uint64_t kMost16 = 0xffff;         ///< stands for: see ZIP64
+constexpr std::uint64_t kMost16 = 0xffff;         ///< means: see ZIP64
 constexpr std::uint64_t kMost32 = 0xffffffff;     ///< the same
 
 void put(std::string& text, std::uint64_t value, int bytes) {

@@ -9,7 +9,7 @@
 /// first date that there is, so that equal files give equal bytes.
 namespace gnomon {
 
-/// A file as its two heads tell it. One that is not deflated is stored as it is.
+/// An entry, as in its two headers. One that is not deflated is stored as it is.
 struct ZipFile {
   std::string_view name; ///< ASCII
   std::uint32_t crc32 = 0;
@@ -18,13 +18,13 @@ struct ZipFile {
   bool isDeflated = false;
 };
 
-/// What stands before the file's bytes.
+/// The header before the file's bytes.
 std::string zipHead(const ZipFile& file);
 
 /// The file in the directory. `offset`: of its head; from 4 GiB on as ZIP64.
 std::string zipDirectoryEntry(const ZipFile& file, std::uint64_t offset);
 
-/// What stands behind the directory, which lies at `offset`; as ZIP64 where the ZIP needs it.
+/// The records after the directory, which lies at `offset`; as ZIP64 where the ZIP needs it.
 std::string zipEnd(std::uint64_t files, std::uint64_t directoryBytes, std::uint64_t offset);
 
 /// CRC-32 as ZIP has it.

@@ -30,7 +30,7 @@ std::optional<FramePart> partOf(std::string_view stage) {
   return found == kParts.end() ? std::nullopt : std::optional(found->second);
 }
 
-/// The times of a report by part, negative where it tells nothing.
+/// The times of a report by part, negative where it has none.
 std::array<double, kFrameParts> timesOf(const FrameReport& report) {
   std::array<double, kFrameParts> times;
   times.fill(-1);

@@ -8,7 +8,7 @@
 #include "protocol/report/replies.h"
 #include "protocol/spec/frame_spec.h"
 
-/// How much work a frame is, told before any of it is done: from the request and the scene's summary alone.
+/// The work of a frame, estimated before it is drawn, from the request and the scene's summary alone.
 namespace gnomon {
 
 SceneCounts sceneCounts(const SceneSummary& summary);

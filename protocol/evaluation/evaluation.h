@@ -11,6 +11,7 @@
 #include "protocol/spec/frame_spec.h"
 
 /// Speed against error: a frame's settings and variants of them, each measured against rays.
+/// Rows of the fields: evaluation_rows.h.
 namespace gnomon {
 
 /// Variants that the server knows by name.
@@ -25,19 +26,19 @@ struct SpecPatch {
 
 /// Where the camera goes so that shimmer shows; exactly one of `cameras` and `step`.
 struct CameraPath {
-  std::optional<std::vector<Camera>> cameras{}; ///< one a frame, at least two
-  std::optional<Vec3> step{};                   ///< metres that each variant's own camera moves from frame to frame
-  std::optional<int> frames{};                  ///< with `step`: how many, at least two; absent = 16
+  std::optional<std::vector<Camera>> cameras{};
+  std::optional<Vec3> step{};
+  std::optional<int> frames{};
 };
 
 /// An evaluation as it is asked for; exactly one of `variants` and `sweep`.
 struct EvaluationRequest {
-  FrameSpec spec{};                                 ///< what all variants begin with; names no target
-  std::optional<std::vector<SpecPatch>> variants{}; ///< one row each
+  FrameSpec spec{};
+  std::optional<std::vector<SpecPatch>> variants{};
   std::optional<Sweep> sweep{};
-  int repeats = 5;                  ///< timed frames of a variant
-  int referenceSamples = 256;       ///< rays a pixel of the reference towards a light that has a size; 1..1024
-  std::optional<CameraPath> path{}; ///< present = shimmer is measured along it
+  int repeats = 5;
+  int referenceSamples = 256;
+  std::optional<CameraPath> path{};
 };
 
 /// One variant, ready to be drawn.
@@ -59,7 +60,7 @@ struct Evaluation {
 /// Why a variant could not be measured; Problem in JSON.
 struct VariantProblem {
   std::string code{};
-  std::string pointer{}; ///< into the variant's whole spec
+  std::string pointer{};
   std::string detail{};
   std::optional<std::string> limit{};
   std::optional<std::string> actual{};
@@ -69,34 +70,33 @@ struct VariantProblem {
 struct EvaluationRow {
   SpecPatch variant{};
   std::string name{};
-  /// Of a whole warm frame, its tiles drawn anew, not encoded: the median. Absent until it is timed.
   std::optional<double> milliseconds{};
-  std::vector<StageTime> stages{}; ///< medians, each by itself
-  std::uint64_t memoryBytes = 0;   ///< on the device, the scene's own included
+  std::vector<StageTime> stages{};
+  std::uint64_t memoryBytes = 0;
   std::optional<ErrorMetrics> metrics{};
-  std::optional<bool> pareto{}; ///< true = no other row is faster and misclassifies no more; absent until all are timed
-  std::optional<std::vector<VariantProblem>> problems{}; ///< present where it could not be measured
+  std::optional<bool> pareto{};
+  std::optional<std::vector<VariantProblem>> problems{};
 };
 
 /// The truth that the rows were held against.
 struct ReferenceReport {
-  double milliseconds = 0;      ///< of tracing
-  double buildMilliseconds = 0; ///< of sorting the scene for rays, before
-  int samples = 0;              ///< rays a pixel towards lights that have a size
-  int frames = 0;               ///< traced ones: variants that see the same from the same place share one
+  double milliseconds = 0;
+  double buildMilliseconds = 0;
+  int samples = 0;
+  int frames = 0;
 };
 
 struct EvaluationReport {
-  std::vector<EvaluationRow> rows{}; ///< in the order of the variants
+  std::vector<EvaluationRow> rows{};
   ReferenceReport reference{};
   RendererInfo renderer{};
 };
 
 /// How far an evaluation has come.
 struct EvaluationStep {
-  int done = 0;    ///< frames, references and paths that are finished
-  int of = 0;      ///< of all; fewer may come where a variant fails
-  int variant = 0; ///< index of the one that is worked on
+  int done = 0;
+  int of = 0;
+  int variant = 0;
 };
 
 } // namespace gnomon

@@ -39,7 +39,7 @@ Problem targetProblem(const std::string& pointer) {
           .detail = "An evaluation measures given settings: leave out the target `quality`."};
 }
 
-/// Reads variants over a spec that may have problems of its own, which are not told once more.
+/// Reads variants over a spec that may have problems of its own, which are not reported again.
 class VariantReader {
  public:
   VariantReader(const Json& spec, ProblemList& problems)

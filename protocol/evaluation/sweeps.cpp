@@ -62,7 +62,7 @@ void appendSizes(std::vector<ShadowVariant>& variants) {
   }
 }
 
-/// A light's own shadow stands over the frame's, so that it is changed, too; a list can only be replaced as a whole.
+/// A light's own shadow overrides the frame's, so it is changed, too; a list can only be replaced as a whole.
 Json patchOf(const Json& shadow, const Json& spec) {
   Json patch = {{"shadow", shadow}};
   const auto lights = spec.find("lights");

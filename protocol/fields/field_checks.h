@@ -6,7 +6,7 @@
 
 #include "protocol/fields/value_type.h"
 
-/// Holds values against the bounds in their rows. Each check adds its problem and tells whether there was none.
+/// Checks of values against the bounds in their rows. Each adds its problem and returns whether there was none.
 namespace gnomon {
 
 /// "720", "0.1": the shortest text that reads back as the same number.

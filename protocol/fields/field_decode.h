@@ -5,7 +5,7 @@
 #include "protocol/fields/value_type.h"
 
 /// JSON to described structs. Each function adds the problems that it finds, writes `out` only where the value can be
-/// taken, and tells whether it was.
+/// taken, and returns whether it was.
 namespace gnomon {
 
 bool decodeValue(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems,

@@ -20,7 +20,7 @@ struct FieldEntry {
   Json schema;         ///< without references
 };
 
-/// Every field that holds a value rather than further fields, in the order of the rows. A struct that stands in a list
+/// Every field that holds a value rather than further fields, in the order of the rows. A struct in a list
 /// and outside of it, too (a light's own shadow), is taken apart only outside.
 std::vector<FieldEntry> frameFields();
 

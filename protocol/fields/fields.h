@@ -67,7 +67,7 @@ struct Field {
   std::string_view name; ///< the JSON key and the member's name
   Member Owner::*member;
   Notes notes;
-  bool inlined = false; ///< an optional struct whose own fields stand directly in the owner's JSON object
+  bool inlined = false; ///< an optional struct whose own fields are directly in the owner's JSON object
 };
 
 template <class Owner, class Member>

@@ -15,7 +15,7 @@ using FieldStep = std::variant<std::string, std::size_t>;
 
 /// The steps of a field's path as FIELDS.md shows it, each list's element with its index in brackets:
 /// "lights[0].sun.azimuthDegrees". A part that is a number by itself is an index, too: "lights.0.sun". At least one
-/// step. Problems: brackets that hold no index of up to 9 digits, or stand behind no name.
+/// step. Problems: brackets that hold no index of up to 9 digits, or follow no name.
 Result<std::vector<FieldStep>> fieldSteps(std::string_view path);
 
 /// The JSON pointer of such a place: "/lights/0/sun/azimuthDegrees".

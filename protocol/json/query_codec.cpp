@@ -17,7 +17,7 @@ constexpr std::size_t kMaxQueryKeys = 256; ///< more than a spec with a few ligh
 
 using Query = std::vector<std::pair<std::string, std::string>>;
 
-/// What a query key stands for: a path in the spec's JSON.
+/// The path of a query key in the spec's JSON.
 struct QueryField {
   std::string key;     ///< as it was written
   std::string pointer; ///< of the JSON value that it gives
@@ -184,7 +184,7 @@ class QueryReader {
   std::vector<QueryField> fields_;
 };
 
-/// The query key that gave what stands at a JSON pointer; where none did, the one that would.
+/// The query key that gave the value at a JSON pointer; where none did, the one that would.
 std::string keyAt(const std::string& pointer, const std::vector<QueryField>& fields) {
   for (const QueryField& field : fields) {
     if (pointsInto(pointer, field.pointer)) return QueryReader::shortenedKey(field.key);

@@ -4,11 +4,11 @@
 
 namespace gnomon::openapi {
 
-/// The two ways to show who asks: components/securitySchemes.
+/// The two kinds of credentials: components/securitySchemes.
 Json securitySchemes();
 
 /// The paths with what each operation needs where the server has keys, and with the replies that refuse a request
-/// because of who asks, or from where.
+/// because of the client's key or address.
 Json withAccess(Json paths);
 
 } // namespace gnomon::openapi

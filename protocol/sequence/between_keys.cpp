@@ -32,7 +32,7 @@ std::string shown(const Json& value) {
   return asciiExcerpt(jsonText(value));
 }
 
-/// `type`: of what stands here; null = nothing that a spec has.
+/// `type`: of the value here; null = not a field of a spec.
 void check(const Json& a, const Json& b, const ValueType* type, const Place& place, ProblemList& problems) {
   type = bare(type);
   if (a.is_object() && b.is_object()) {

@@ -115,7 +115,7 @@ void checkPatches(const Sequence& sequence, ProblemList& problems) {
   }
 }
 
-/// Reads every frame. Problems of the spec itself were told already.
+/// Reads every frame. Problems of the spec itself are already reported.
 void checkFrames(const Sequence& sequence, const std::function<void(const FrameSpec&)>& each, ProblemList& problems) {
   const Problems known = problems.problems();
   for (int index = 0; index < sequence.count && problems.problems().size() < ProblemList::kMax; ++index) {

@@ -34,7 +34,7 @@ Result<Sequence> decodeSequence(std::string_view json, const std::function<void(
 /// REQUIRES: 0 <= index < sequence.count.
 FrameSpec frameSpec(const Sequence& sequence, int index, const Carried& before);
 
-/// Where frame `index` stands in the request: "/frames/17", "/keys/2".
+/// Pointer to frame `index` in the request: "/frames/17", "/keys/2".
 std::string framePlace(const Sequence& sequence, int index);
 
 /// What is carried, from untrusted JSON.

@@ -16,7 +16,7 @@ class FrameSizes {
   /// Each frame in order, as decodeSequence calls for them.
   void see(const FrameSpec& spec);
 
-  /// The first frame of another size, with its place. Views that choose their own size are told by their pictures.
+  /// The first frame of another size, with its place. Views that choose their own size are found by their pictures.
   std::optional<Problem> problem(const Sequence& sequence) const;
 
  private:

@@ -22,10 +22,10 @@ bool shines(const Light& light);
 /// Has a disc, or is a ball: its shadows have penumbras.
 bool hasSize(const Light& light);
 
-/// The lights that throw shadows, by their index. REQUIRES: their shadows are set.
+/// The lights that cast shadows, by their index. REQUIRES: their shadows are set.
 std::vector<int> shadowingLights(std::span<const Light> lights, ShadowLightPolicy policy);
 
-/// Of the lights that throw shadows, the ones that get a shadow map: those whose technique reads one, and all of them
+/// Of the lights that cast shadows, the ones that get a shadow map: those whose technique reads one, and all of them
 /// where a view shows tiles. REQUIRES: no technique is auto any more.
 std::vector<int> mappedLights(std::span<const Light> lights, const FrameSpec& spec);
 

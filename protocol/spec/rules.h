@@ -17,7 +17,7 @@ namespace gnomon {
 /// One of index and name, and a time only with them.
 void appendAnimationRules(const AnimationMoment& moment, const std::string& pointer, std::vector<BrokenRule>& broken);
 
-/// Of one camera that stands at `pointer`.
+/// Of one camera at `pointer`.
 void appendCameraRules(const Camera& camera, const std::string& pointer, std::vector<BrokenRule>& broken);
 
 /// Where an entry of `nodes` puts its node.
@@ -33,13 +33,13 @@ int tileSide(ShadowSize size, const Atlas& atlas);
 
 void appendAtlasRules(const Atlas& atlas, std::vector<BrokenRule>& broken);
 
-/// Of one shadow that stands at `pointer`.
+/// Of one shadow at `pointer`.
 void appendShadowRules(const Shadow& shadow, const Atlas& atlas, const std::string& pointer,
                        std::vector<BrokenRule>& broken);
 
 // volume_rules.cpp
 
-/// Of one volume that stands at `pointer`.
+/// Of one volume at `pointer`.
 void appendVolumeRules(const VolumeOptions& volume, const std::string& pointer, std::vector<BrokenRule>& broken);
 
 } // namespace gnomon

@@ -84,7 +84,7 @@ struct TechniqueTraits {
   bool baked;              ///< looks the shadow up in a texture that was traced before, and traces no pixel
   bool needsEdges;         ///< needs to know the edges of the casters' meshes
   bool knowsSize;          ///< soft where the light has a size
-  bool needsOpaqueCasters; ///< can't tell the holes of a masked or blended caster
+  bool needsOpaqueCasters; ///< ignores the holes of a masked or blended caster
 };
 
 // clang-format off

@@ -9,7 +9,7 @@
 namespace gnomon {
 
 /// What is wrong with a spec, however it was made: each value against its row, and where all are good, the rules across
-/// fields. decodeFrameSpec has done this already. Empty = it can be rendered, as far as can be told without a scene.
+/// fields. decodeFrameSpec has done this already. Empty = it can be rendered, as far as is known without a scene.
 Problems validate(const FrameSpec& spec);
 
 /// A rule across fields that a spec breaks.

@@ -77,7 +77,7 @@ void appendLookAtRules(const EyeTarget& lookAt, const std::string& camera, std::
   }
 }
 
-/// The rotation of a pose: its axes have length 1, stand on each other and are not mirrored, within what numbers of a
+/// The rotation of a pose: its axes have length 1, are perpendicular and are not mirrored, within what numbers of a
 /// calibration are rounded to.
 bool isRotation(const Rows4& rows) {
   constexpr double kRounding = 1e-3;
