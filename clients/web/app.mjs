@@ -44,7 +44,7 @@ const announce = (text) => (byId('live').textContent = text);
 const sharpSpec = () => fullSpec(store.state, stageSize());
 let shown = null; // what the sharp picture was asked with: {state, spec}
 
-// The spec that gave the picture: view Motion tells what has moved since the picture before it, which is then gone.
+// The spec that gave the picture: view Motion shows what has moved since the picture before it, which is then gone.
 function shownSpec() {
   const { spec, view, summary } = store.state;
   const isShown = shown && shown.state.spec === spec && shown.state.view === view && shown.state.summary === summary;
@@ -75,7 +75,7 @@ async function show({ report, images, roundTripMs, asked }, draft) {
   showTimings(report, roundTripMs);
   plan.update(report, store.state.summary);
   if (draft) return;
-  // The scene's own warnings stand beside its name.
+  // The scene's own warnings are beside its name.
   const warnings = report.warnings.filter((text) => !store.state.summary.warnings.includes(text));
   showReport(byId('report'), { ...report, warnings });
   const hasReport = report.lights.some(({ tiles, note, lightMap }) => tiles.length || note || lightMap);

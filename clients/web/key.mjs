@@ -4,7 +4,7 @@ const kName = 'gnomon.key';
 
 const headersFor = (key) => (key ? { Authorization: `Bearer ${key}` } : {});
 
-// sessionStorage, or a stand-in until the page is left where the browser refuses it.
+// sessionStorage, or a substitute until the page is left where the browser refuses it.
 export function tabStorage() {
   try {
     return sessionStorage;

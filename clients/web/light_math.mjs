@@ -1,4 +1,4 @@
-// Where the sun stands, from the light that was in force. Pure.
+// Azimuth and elevation of the sun, from the effective light. Pure.
 
 const kRadians = Math.PI / 180;
 const kFirstSun = { azimuthDegrees: 135, elevationDegrees: 40 };

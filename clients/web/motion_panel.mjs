@@ -3,7 +3,7 @@
 import { createControl } from './controls.mjs';
 import { element } from './dom.mjs';
 
-// Where a clip stands that goes round.
+// Time within a looping clip.
 export function wrappedTime(fromSeconds, milliseconds, durationSeconds) {
   if (!(durationSeconds > 0)) return 0;
   return (((fromSeconds + milliseconds / 1000) % durationSeconds) + durationSeconds) % durationSeconds;

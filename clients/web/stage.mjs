@@ -8,7 +8,7 @@ const kKeyDegrees = 5;
 const kKeyPixels = 40;
 
 // `node` takes the pointer; `orbit()` gives the present orbit or null; `fovY()` the lens in degrees; `move(orbit)` is
-// told the next orbit; `fit()` starts over.
+// given the next orbit; `fit()` starts over.
 export function attachOrbit(node, { orbit, fovY, move, fit }) {
   const pointers = new Map();
   const change = (next) => {

@@ -1,4 +1,4 @@
-// The page's state: one immutable value, replaced whole; whoever asked is told.
+// The page's state: one immutable value, replaced whole; subscribers are called.
 //   sceneId  of the scene that is shown, or null
 //   view     the picture that is shown: color, depth …
 //   spec     the part of the FrameSpec that the user chose; what is absent is the server's default

@@ -12,7 +12,7 @@ class App;
 /// The subcommands of the binary that need no server in the process.
 namespace gnomon::cli {
 
-/// What the shell is told.
+/// Exit codes.
 enum ExitCode : int {
   kExitOk = 0,
   kExitProblem = 1, ///< the request, the scene, the server or the disk refused; every problem is on stderr
@@ -29,7 +29,7 @@ struct Subcommand {
 /// name) leaves open, before `app` parses them. Tells what is wrong and gives an ExitCode where there is no way on.
 std::optional<int> takeConfiguration(CLI::App& app, const std::vector<std::string>& arguments);
 
-/// Every command that needs no server in the process. `app` outlives them: some tell what it holds.
+/// Every command that needs no server in the process. `app` outlives them: some print what it holds.
 std::vector<Subcommand> addClientCommands(CLI::App& app);
 
 Subcommand addBakeCommand(CLI::App& app);

@@ -101,7 +101,7 @@ const CLI::App* parseTyped(CLI::App& typed, std::vector<std::string> arguments) 
   std::reverse(arguments.begin(), arguments.end()); // as CLI11 takes them
   try {
     typed.parse(std::move(arguments));
-  } catch (const CLI::Error&) { // is told when it is parsed for good
+  } catch (const CLI::Error&) { // reported by the final parse
   }
   const auto chosen = typed.get_subcommands();
   return chosen.empty() ? nullptr : chosen.front();

@@ -119,7 +119,7 @@ class SceneRun {
   Status opened_ = Done{};
 };
 
-/// Every picture that can be made; those that can't be tell their problems.
+/// Every picture that can be made, and the problems of the others.
 int renderBatch(const std::vector<BatchItem>& items, const std::vector<ResolvedSpec>& specs,
                 const RenderOptions& options, FrameMaker& maker) {
   auto progress = ProgressLine::onTerminal();

@@ -161,7 +161,7 @@ const ActionRow* actionOf(const JobsOptions& options) {
 
 void checkArguments(const JobsOptions& options) {
   const ActionRow* const action = actionOf(options);
-  if (action == nullptr) return; // told already
+  if (action == nullptr) return; // already reported
   const bool isId = options.id.size() == 32 && options.id.find_first_not_of("0123456789abcdef") == std::string::npos;
   if (action->needsJob && !isId) throw CLI::ValidationError("id", "needs a job's id, 32 hexadecimal digits");
   if (!action->needsJob && !options.id.empty()) throw CLI::ValidationError("id", "ls takes none");

@@ -161,7 +161,7 @@ int runSequence(SequenceOptions options) {
   const auto text = specText(options.spec);
   if (!text) return printProblems(text.problems());
   Json request = Json::parse(*text, nullptr, false);
-  // What is no object is told by the decoder, with its place.
+  // The decoder reports what is not an object, with its place.
   FlagOrigins origins;
   std::string requestJson = *text;
   if (request.is_object()) {
@@ -190,7 +190,7 @@ int runSequence(SequenceOptions options) {
   return drawFrames(options, requestJson, *sequence, origins, *maker, progress);
 }
 
-/// Where a frame's effective camera stands and looks.
+/// Position and target of a frame's effective camera.
 struct Seen {
   Vec3 eye{}, target{};
   double distance() const { return std::hypot(eye[0] - target[0], eye[1] - target[1], eye[2] - target[2]); }

@@ -22,7 +22,7 @@ std::string viewNames() {
   return names;
 }
 
-/// `placements`: the other flags that say where the camera stands.
+/// `placements`: the other flags that place the camera.
 void addFieldFlags(CLI::App& command, SpecArguments& arguments, std::vector<CLI::Option*> placements) {
   for (const FieldFlag& field : kFieldFlags) {
     // `evaluate` has a --variant of its own: a variant of the frame.

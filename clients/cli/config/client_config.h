@@ -13,7 +13,7 @@ namespace gnomon::cli {
 
 /// Flags and their values, from one part of the file: KEY is the flag without its dashes.
 struct ConfigLayer {
-  std::string preset; ///< empty = what stands above all sections: defaults
+  std::string preset; ///< empty = the entries above all sections: defaults
   std::vector<ConfigEntry> entries;
 };
 
@@ -34,7 +34,7 @@ Result<ClientConfig> parseClientConfig(std::string_view text, const std::string&
 /// The defaults and then these presets, in this order. Problems: a preset that there is none of.
 Result<std::vector<ConfigLayer>> layersOf(const ClientConfig& config, std::span<const std::string> presets);
 
-/// A file's name as it stands in a configuration: ~/ is the home, and what is relative begins in the file's folder.
+/// A file name of a configuration: ~/ is the home, and a relative name begins in the configuration's folder.
 std::string fileNamedIn(const std::string& configFile, const std::string& name, const char* home);
 
 } // namespace gnomon::cli

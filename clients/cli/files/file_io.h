@@ -21,17 +21,17 @@ Result<Bytes> readStandardInput(std::size_t maxBytes);
 /// A file as text; "-" is standard input.
 Result<std::string> readText(const std::string& path, std::size_t maxBytes);
 
-/// Puts the file in place in one step: whoever looks sees the old file or the whole new one. Makes the folders that it
+/// Puts the file in place atomically: readers see the old file or the whole new one. Makes the folders that it
 /// needs. "-" is standard output.
 Status writeFile(const std::string& path, std::span<const std::uint8_t> bytes);
 
-/// The `output.format` that the name's suffix stands for; nothing for any other, and for "-" (standard output).
+/// The `output.format` of the name's suffix; nothing for any other, and for "-" (standard output).
 std::optional<std::string> formatOf(const std::string& output);
 
 /// Every suffix that formatOf knows: ".png .exr ...".
 std::string suffixList();
 
-/// What a command line is told of an output's name: empty where formatOf knows it.
+/// What is wrong with an output's name: empty where formatOf knows it.
 std::string checkPictureName(const std::string& output);
 
 /// Where a picture goes: the output with its {view}, the output itself, or, one of several, "frame.depth.png" for view

@@ -84,7 +84,7 @@ bool FileWatch::readEvents() {
       inotify_event event{};
       std::memcpy(&event, buffer.data() + at, sizeof event);
       const char* name = buffer.data() + at + sizeof event;
-      const bool isLost = (event.mask & IN_Q_OVERFLOW) != 0; // some change was not told
+      const bool isLost = (event.mask & IN_Q_OVERFLOW) != 0; // a change was lost
       if (isLost || (event.len > 0 && names_.contains({event.wd, name}))) isOurs = true;
       at += static_cast<ssize_t>(sizeof event + event.len);
     }

@@ -8,7 +8,7 @@
 
 namespace gnomon::cli {
 
-/// A file that is written piece by piece and put in place in one step: whoever looks sees the old file or the whole new
+/// A file that is written piece by piece and put in place atomically: readers see the old file or the whole new
 /// one, and nothing is left of one that is not finished. Problems name the path as the user gave it.
 class NewFile {
  public:

@@ -33,7 +33,7 @@ bool hasPlaceholder(const std::string& pattern) {
   return has(pattern, "{scene}") || has(pattern, "{folder}") || has(pattern, "{camera}");
 }
 
-/// What would tell the two apart in the pattern; empty where nothing would.
+/// The placeholders that would make the two names differ; empty where none would.
 std::string missingPlaceholders(const std::string& pattern, const BatchItem& a, const BatchItem& b) {
   std::string missing;
   if (a.scene != b.scene && !has(pattern, "{scene}")) missing = "{scene}";

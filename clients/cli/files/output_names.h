@@ -10,7 +10,7 @@
 /// Names of files that are made from a pattern: "out/{scene}-{camera}.png".
 namespace gnomon::cli {
 
-/// Placeholder without its braces -> what stands for it.
+/// Placeholder without its braces -> its value.
 using Placeholders = std::map<std::string, std::string>;
 
 /// What a client or a scene calls something, as a part of a file's name.

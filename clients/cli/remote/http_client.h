@@ -19,7 +19,7 @@ struct HttpCall {
   std::string contentType;            ///< of the body
   std::string_view body;              ///< POST only; must live as long as the call
   std::chrono::seconds patience{0};   ///< for each wait on the network; 0 = the caller's
-  std::function<void(double)> onSent; ///< told the share of the body that is on its way, 0..1
+  std::function<void(double)> onSent; ///< gets the sent share of the body, 0..1
   /// Of a GET or POST: given each piece of the body of a 200 as it comes; the reply is then without it.
   std::function<void(std::string_view)> onReceived;
   /// Makes what was received void before a reply that was cut off is asked for again; null = it is not.
@@ -33,7 +33,7 @@ struct HttpReply {
   int retryAfterSeconds = 0; ///< 0 = the server named none
 };
 
-/// Where to call, and who calls.
+/// Address and credentials of a server.
 struct Remote {
   std::string url;   ///< "http://host:port" or "https://…", with or without a path in front
   std::string key{}; ///< sent as a bearer token; empty = none
@@ -44,7 +44,7 @@ struct Remote {
   std::shared_ptr<bool> wasThere = std::make_shared<bool>(false);
 };
 
-/// One call. A reply of any status is a value; a problem means that there was none: a bad address, nobody there, no
+/// One call. A reply of any status is a value; a problem means that there was none: a bad address, no server there, no
 /// answer in time. No redirection is followed, so that the key goes nowhere else.
 Result<HttpReply> callServer(const Remote& remote, const HttpCall& call);
 

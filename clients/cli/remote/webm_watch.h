@@ -13,7 +13,7 @@ struct VideoTag {
   std::string text;
 };
 
-/// What a sequence's video tells while it is received: how many frames are whole, and the tag at its end. Its frames
+/// State of a sequence's video while it is received: how many frames are complete, and the tag at its end. Its frames
 /// are not kept.
 class WebmWatch {
  public:

@@ -14,7 +14,7 @@ std::string reportText(const BakeReport& report) {
   return toJson(report).dump(2) + "\n";
 }
 
-/// The report of a bake on a server; `id` as callAbout takes it.
+/// The report of a bake on a server, with its progress shown; `id` as callAbout takes it.
 Result<BakeReport> askForBake(const Remote& remote, const SceneBundle& bundle, std::string& id, const FrameSpec& spec,
                               ProgressLine& progress) {
   const std::string body = toJson(spec).dump();

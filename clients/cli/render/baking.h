@@ -11,7 +11,7 @@
 
 namespace gnomon::cli {
 
-/// What to bake, and the file that it shall become.
+/// What to bake, and into which file.
 struct BakeOrder {
   FrameSpec spec;
   BakeFile kind = BakeFile::glb;

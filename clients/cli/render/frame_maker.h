@@ -47,7 +47,7 @@ class FrameMaker {
   // In this process
   std::optional<Renderer> renderer_; ///< made with the first scene
   ScenePtr scene_;
-  std::optional<double> loadMilliseconds_; ///< until a frame's report has told it
+  std::optional<double> loadMilliseconds_; ///< until a frame's report has included it
   // On a server
   SceneBundle bundle_; ///< without a model where only the id is known
   std::string id_;     ///< empty = not asked yet

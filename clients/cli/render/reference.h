@@ -16,7 +16,7 @@ Result<FrameSpec> drawnSpec(const std::string& reportJson);
 /// a size.
 FrameSpec withExactShadows(FrameSpec spec);
 
-/// The evaluation that tells the error of the frame's shadows, as JSON: an EvaluationRequest of one variant.
+/// The evaluation that measures the error of the frame's shadows, as JSON: an EvaluationRequest of one variant.
 std::string errorRequest(FrameSpec spec);
 
 /// "out/frame.png" -> "out/frame.reference.png".

@@ -59,7 +59,7 @@ Result<std::string> applyFieldFlag(Json& spec, const FieldFlag& flag, std::strin
   if (flag.value == FlagValue::nameOrIndex) path += value->is_number() ? ".index" : ".name";
   if (flag.value == FlagValue::color) path += ".color";
   const auto steps = split(path, '.');
-  // First, since erasing moves what stands behind.
+  // First, since erasing moves what follows.
   const auto camera = spec.find("camera");
   const bool hasCamera = camera != spec.end() && camera->is_object();
   for (const std::string& other : splitTrimmed(hasCamera ? flag.replaces : "", ' ')) camera->erase(other);

@@ -178,7 +178,7 @@ std::optional<std::string> formatOfSets(const std::vector<std::pair<std::string,
   for (const auto& [path, text] : sets) {
     if (path != "output" && path != "output.format") continue;
     const auto value = valueOf(text);
-    if (!value || !setAtPath(spec, path, *value)) return std::nullopt; // is told where the sets are applied
+    if (!value || !setAtPath(spec, path, *value)) return std::nullopt; // reported where the sets are applied
   }
   const Json::json_pointer format("/output/format");
   if (!spec.contains(format) || !spec[format].is_string()) return std::nullopt;

@@ -57,7 +57,7 @@ Problems ofRequest(const std::string& file, Problems problems);
 /// `specJson` (a whole FrameSpec, "{}" for none) with the flags laid over it, in the order above but for the format,
 /// which comes last, then checked as the server checks a request. --camera and --orbit replace the placement and keep
 /// the lens; --sun turns the first directional light, or adds one. What is wrong with the JSON by
-/// itself is told with the `file` that it was read from.
+/// itself is reported with the `file` that it was read from.
 ResolvedSpec resolveSpec(const std::string& specJson, const SpecArguments& arguments, const std::string& file = "");
 
 /// The text of a spec in a file; "-" is standard input, an empty name is "{}".

@@ -14,7 +14,7 @@ namespace gnomon::cli {
 
 namespace {
 
-/// The one thing that all commands share and none passes on: how to talk to whoever has started this process.
+/// Settings of messages, shared by all commands and passed to none.
 struct Manners {
   ProblemForm problems = ProblemForm::lines;
   bool quiet = false;
@@ -26,7 +26,7 @@ Manners& manners() {
   return ours;
 }
 
-/// Of a flag that nobody has typed; empty of others.
+/// Origin of a flag that was not typed; empty for others.
 std::string placeOf(const std::string& flag) {
   const auto place = manners().places.find(flag);
   return place == manners().places.end() ? "" : place->second;

@@ -47,7 +47,7 @@ void printWarnings(const std::vector<std::string>& warnings);
 /// The text with every control character replaced, so that what a file or a server says can't steer the terminal.
 std::string printable(std::string text);
 
-/// What is being done, told on stderr while it lasts: a spinner, the stage, a bar where the share is known, the
+/// Progress of the current work on stderr: a spinner, the stage, a bar where the share is known, the
 /// seconds so far. Only on a terminal; anywhere else it writes nothing and starts no thread.
 class ProgressLine {
  public:
@@ -59,7 +59,7 @@ class ProgressLine {
 
   void stage(const std::string& name); ///< the stage that begins now; the one before is done
   void share(double done);             ///< of the stage, 0..1
-  void lead(const std::string& text);  ///< stands before every stage from now on: "3 of 12: "
+  void lead(const std::string& text);  ///< prefix of every later stage: "3 of 12: "
   void finish();                       ///< clears the line; call before anything else is printed
 
  private:

@@ -4,7 +4,7 @@
     python3 clients/python/examples/dataset.py scene.glb dataset --count 1000
 
 Each sample is one .npz, with arrays color, depth, ids and shadow, the camera's pose (4 x 4, OpenCV's axes) and matrix K,
-`shown`, the share of its pixels that show the scene, and with report.json, which tells how it was drawn.
+`shown`, the share of its pixels that show the scene, and with report.json, which says how it was drawn.
 manifest.json says what drew them, names the nodes that ids shows, and has the share of every sample. Where a camera sees less
 of the scene than --shown, another is tried. Run it again after a break, and it goes on where it stopped: what a sample shows
 is decided by its number, --seed and --shown alone.

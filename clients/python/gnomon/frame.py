@@ -135,7 +135,7 @@ class Frame:
 
 
 class StoredArrays(Mapping[str, Array]):
-    """The arrays of a .npz, each of them read when it is first asked for: who only writes a frame on waits for none."""
+    """The arrays of a .npz, each read on first access."""
 
     def __init__(self, content: bytes, names: Tuple[str, ...]):
         self._content = content

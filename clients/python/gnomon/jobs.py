@@ -1,4 +1,4 @@
-"""A sequence that the server draws while nobody waits."""
+"""A sequence that the server draws in the background."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Job:
         return report["done"], report["of"]
 
     def wait(self, timeout: Optional[float] = None) -> JobReport:
-        """Returns when it is done. JobFailed where a frame could not be drawn, JobCancelled where somebody removed it,
+        """Returns when it is done. JobFailed where a frame could not be drawn, JobCancelled where it was removed,
         TimeoutError after so many seconds."""
         deadline = None if timeout is None else time.monotonic() + timeout
         bar = Progress("rendering", self._shows_progress)

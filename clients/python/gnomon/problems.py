@@ -82,7 +82,7 @@ class JobFailed(Exception):
 
 
 class JobCancelled(Exception):
-    """Somebody removed the job."""
+    """The job was removed."""
 
 
 class ConnectionFailed(ConnectionError):

@@ -154,7 +154,7 @@ class Session:
     def submit(self, scene: SceneLike, spec: Optional[Spec] = None, *, frames: Optional[Sequence[Patch]] = None,
                keys: Optional[Sequence[Patch]] = None, count: Optional[int] = None, stable: bool = True,
                **fields: Any) -> Job:
-        """The same frames as those of `sequence`, drawn while nobody waits."""
+        """The same frames as those of `sequence`, drawn in the background."""
         asked = sequence_request(spec, frames, keys, count, stable, fields)
         reply = self._scenes.request(scene, "POST", "/sequences", asked, Prefer="respond-async")
         return self._job(json.loads(reply.body))

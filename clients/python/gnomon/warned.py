@@ -40,7 +40,7 @@ def _outside() -> int:
     """The stack level, as the function that calls this counts it, of the first one outside of this package."""
     level = 1
     frame = sys._getframe(1)
-    inside = (__name__.partition(".")[0], "contextlib")  # which stands between calls of the package
+    inside = (__name__.partition(".")[0], "contextlib")  # a frame between calls of the package
     while frame.f_back is not None and str(frame.f_globals.get("__name__")).partition(".")[0] in inside:
         frame = frame.f_back
         level += 1

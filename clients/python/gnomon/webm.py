@@ -54,7 +54,7 @@ class _Copied:
         return b"".join(pieces)
 
     def number(self) -> Tuple[int, int]:
-        """A number of EBML (RFC 8794), whose first bits tell its length; and how many bytes that is."""
+        """A number of EBML (RFC 8794), whose first bits give its length; and how many bytes that is."""
         first = self.read(1)
         length = 9 - first[0].bit_length()
         if length > 8:
