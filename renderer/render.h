@@ -58,7 +58,7 @@ struct RendererOptions {
   std::size_t lightMapBytes = 1u << 28;       ///< baked shadows kept, dropped in the same order
   std::shared_ptr<LightMapStore> lightMaps{}; ///< where baked shadows outlive the renderer; nullptr = nowhere
   std::size_t volumeBytes = 1u << 29;         ///< half of it grids of volumes kept, half the light in them
-  std::size_t tileCacheBytes = 1u << 28;      ///< shadow atlases kept for later frames; 0 = every tile is drawn anew
+  std::size_t tileCacheBytes = 1u << 28;      ///< shadow atlases kept for later frames; 0 = every tile is drawn again
 };
 
 struct FrameCaches;
@@ -98,7 +98,7 @@ class Renderer {
   /// Of the device that draws `spec`, which is opened now if need be. A problem at /device as render gives.
   Result<RendererInfo> infoFor(const FrameSpec& spec);
 
-  /// `spec` has passed protocol/validate; what only the scene can tell (a node that is no camera) is checked here.
+  /// `spec` has passed protocol/validate; what depends on the scene (a node that is no camera) is checked here.
   /// `goOn`: false ends the frame with a problem of code unavailable; nothing half made is kept for later frames.
   Result<Frame> render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles = TileUse::kept,
                        const GoOn& goOn = {});

@@ -10,7 +10,7 @@
 
 namespace gnomon {
 
-/// One light's shadow on a scene that stands still.
+/// One light's shadow on a static scene.
 struct BakedLight {
   std::shared_ptr<const LightMapLayout> layout;
   LightMap map;

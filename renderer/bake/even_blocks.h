@@ -9,7 +9,7 @@
 
 namespace gnomon {
 
-/// Where a light map says the same all around: most of it is lit or dark as a whole, and a fraction of its bytes tells.
+/// Blocks of a light map with one value: most of it is lit or dark as a whole, so that few bytes suffice.
 struct EvenBlocks {
   static constexpr int kSide = 8;             ///< texels
   static constexpr std::uint16_t kUneven = 1; ///< a share that no block is said to have

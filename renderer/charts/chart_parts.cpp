@@ -76,11 +76,11 @@ namespace gnomon {
 
 LogAxis::LogAxis(std::span<const double> values, double from, double to) : from_(from), to_(to) {
   if (values.empty()) return;
-  constexpr double kLeast = 1e-9; // a time of 0 is one that no clock could tell
+  constexpr double kLeast = 1e-9; // a time of 0 is below the clock's resolution
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   low_ = std::max(*low, kLeast);
   high_ = std::max(*high, kLeast);
-  constexpr double kLeastRatio = 1.25; // so that equal values stand in the middle
+  constexpr double kLeastRatio = 1.25; // so that equal values are in the middle
   if (high_ < low_ * kLeastRatio) {
     const double middle = std::sqrt(low_ * high_);
     low_ = middle / std::sqrt(kLeastRatio);

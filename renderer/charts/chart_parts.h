@@ -24,7 +24,7 @@ std::string document(double width, double height, std::string_view content);
 
 } // namespace gnomon::svg
 
-/// Where values stand in a chart.
+/// Positions of values in a chart.
 namespace gnomon {
 
 /// A logarithmic axis between two places of the picture, which the least and the greatest value take.
@@ -43,7 +43,7 @@ class LogAxis {
 /// A logarithmic axis of shares, which holds the marks of powers of ten, and a floor of its own for 0.
 class ErrorAxis {
  public:
-  /// `values` >= 0. Between `from` (the least above 0) and `to`; `floor` is where 0 stands.
+  /// `values` >= 0. Between `from` (the least above 0) and `to`; `floor` is the position of 0.
   ErrorAxis(std::span<const double> values, double from, double to, double floor);
 
   double at(double value) const; ///< the floor for 0

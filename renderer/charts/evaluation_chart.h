@@ -14,7 +14,7 @@ struct ChartTime {
 
 /// Speed against error as an SVG file: misclassified share (logarithmic; 0 on a floor of its own) over milliseconds
 /// (logarithmic). Rows on the Pareto front are joined by steps; each point's number leads to its name beside the chart.
-/// Rows without figures stand below the others, with why.
+/// Rows without figures follow the others, with the reason.
 std::string evaluationChart(const EvaluationReport& report, const ChartTime& time = {});
 
 } // namespace gnomon

@@ -11,7 +11,7 @@ namespace gnomon {
 /// any row has ("shade ms"), memoryBytes, every metric ("edgeDisplacement.p95"), pareto. What a row lacks is empty.
 std::string evaluationCsv(const EvaluationReport& report);
 
-/// A value as it stands in a field: in quotes where it holds a comma, a quote or a line break.
+/// A value as a field: in quotes where it holds a comma, a quote or a line break.
 std::string csvField(std::string_view text);
 
 } // namespace gnomon

@@ -10,7 +10,7 @@
 
 namespace gnomon {
 
-/// A camera, resolved: where it stands, its orthonormal axes and its lens. All in world units and double precision.
+/// A camera, resolved: its position, orthonormal axes and lens. All in world units and double precision.
 /// Everything the renderer computes for a frame is relative to `eye`, so that no large coordinate meets a float.
 struct CameraView {
   glm::dvec3 eye{0};

@@ -11,7 +11,7 @@ namespace gnomon {
 /// other bytes on other makes, and the compressor of PNGs does without SSE 4.2.
 std::string cpuMake();
 
-/// The CPU's name as its maker gives it; empty where the processor tells none.
+/// The CPU's name as its maker gives it; empty where the processor has none.
 std::string cpuName();
 
 /// The linker's hash over the code of this program, in hex (the GNU build id): changes with any source or compiler.

@@ -9,7 +9,7 @@ namespace gnomon {
 namespace {
 
 /// The Planckian locus in CIE 1960 u, v, within 9e-5 of it from 1000 to 15000 K (Krystek, "An algorithm to calculate
-/// correlated colour temperature", Color Research & Application 10, 1985).
+/// correlated color temperature", Color Research & Application 10, 1985).
 glm::dvec2 planckianLocus(double kelvin) {
   const double square = kelvin * kelvin;
   return {(0.860117757 + 1.54118254e-4 * kelvin + 1.28641212e-7 * square) /

@@ -4,7 +4,7 @@
 
 namespace gnomon {
 
-/// Told how far a long task has come, 0..1, by one thread at a time; false asks it to stop. Empty = nobody listens.
+/// Called with the progress of a long task, 0..1, by one thread at a time; false cancels it. Empty = not reported.
 using Progress = std::function<bool(double)>;
 
 } // namespace gnomon

@@ -39,7 +39,7 @@ struct EvaluationTools {
   MeasureShimmer shimmer; ///< needed where the evaluation has a path
 };
 
-/// Who wants to know how an evaluation comes along. Empty members = nobody.
+/// Callbacks for the progress of an evaluation; may be empty.
 struct EvaluationListener {
   /// Told before every frame, and again and again while rays are traced or a path is followed; by one thread at a time,
   /// not always the same.
@@ -51,9 +51,9 @@ struct EvaluationListener {
 
 /// Measures every variant: first the error of all, each shadowed light's S read from the view `shadow` at full strength
 /// and without antialiasing; then the time of all as they are asked for, warm, in rounds, so that a machine's drift
-/// meets all alike. Variants that see the same from the same place share one reference. Any thread; the tools are
-/// called on it. A variant that cannot be drawn is a row with its problem. A problem of code `unavailable` where the
-/// listener asked to stop; problems of the evaluation's own spec point into /spec.
+/// affects all of them equally. Variants that see the same from the same place share one reference. Any thread; the
+/// tools are called on it. A variant that cannot be drawn is a row with its problem. A problem of code `unavailable`
+/// where the listener asked to stop; problems of the evaluation's own spec point into /spec.
 Result<EvaluationReport> evaluate(const std::shared_ptr<const Scene>& scene, const Evaluation& evaluation,
                                   const RendererInfo& renderer, const EvaluationTools& tools,
                                   const EvaluationListener& listener = {});

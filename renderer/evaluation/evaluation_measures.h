@@ -12,7 +12,7 @@
 
 namespace gnomon {
 
-/// Counts an evaluation's steps, tells its listener, and remembers when that asked to stop.
+/// Counts an evaluation's steps, calls its listener, and keeps whether that cancelled it.
 class EvaluationSteps {
  public:
   EvaluationSteps(EvaluationListener listener, int of) : listener_(std::move(listener)), step_{0, of, 0} {}

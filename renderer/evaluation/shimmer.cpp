@@ -127,12 +127,8 @@ Result<ProbedFrame> probeFrame(Device& device, const ScenePtr& scene, const Reso
                                std::vector<Watched>& watched) {
   const SceneView& view = scene->scenes[static_cast<std::size_t>(frame.scene)];
   const FrameSpec& spec = frame.spec;
-  const auto begun = device.begin({.scene = scene,
-                                   .frame = frame,
-                                   .layered = {},
-                                   .traced = {},
-                                   .baked = {},
-                                   .parts = receiverParts(frame)});
+  const auto begun = device.begin(
+      {.scene = scene, .frame = frame, .layered = {}, .traced = {}, .baked = {}, .parts = receiverParts(frame)});
   if (!begun) return begun.problems();
   FrameDrawing& drawing = **begun;
   auto seen = drawing.survey();
@@ -174,7 +170,7 @@ Result<Shimmer> measureShimmer(Device& device, TracedSceneCache& tracedScenes, c
   Shimmer shimmer;
   shimmer.steps = path.size() - 1;
   for (const Watched& light : *watched) shimmer.points += light.points.size();
-  // What is exact is so for a point, whoever looks at it: it never flips.
+  // An exact shadow depends on the point alone, not on the camera: it never flips.
   std::erase_if(*watched, [&](const Watched& light) {
     return isExact((*frames.front().spec.lights)[static_cast<std::size_t>(light.light)]);
   });

@@ -13,7 +13,7 @@ std::vector<SurfacePoint> spreadPoints(const TraceInput& input, int count);
 /// Drops the points that the camera does not see: outside of its view, or behind another surface.
 void keepInSight(const TraceInput& input, std::vector<SurfacePoint>& points);
 
-/// The points where light `light` arrives unless something stands in its way, and where its shadow shows.
+/// The points where light `light` arrives unless something blocks it, and where its shadow shows.
 std::vector<SurfacePoint> receiversOf(const TraceInput& input, int light, const std::vector<SurfacePoint>& points);
 
 /// The cameras of a path, one a frame; `start`: the effective camera that a path of steps begins at.

@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-/// The scene as it stands, as GLB: each placed primitive that is visible with TEXCOORD_1 for the map and in a mesh of
+/// The scene in its pose, as GLB: each placed primitive that is visible with TEXCOORD_1 for the map and in a mesh of
 /// its own, materials shared, perspective cameras, no lights, no animations. The map is 8-bit sRGB under MOZ_lightmap,
 /// whose intensity gives it the lights' unit again. A problem where a picture of the scene is broken, and tooLarge
 /// where the file would have more than `mostBytes`.

@@ -17,7 +17,7 @@ Result<Bytes> depthTiff(const Frame& frame, const SensorRange& range, const GoOn
 /// REQUIRES: as above.
 Result<Bytes> depthPng(const Frame& frame, const SensorRange& range, const GoOn& goOn = {});
 
-/// The base color of each seen material as it stands in the file, 0..1 as 0..255, without light, texture or transfer
+/// The base color of each seen material as in the file, 0..1 as 0..255, without light, texture or transfer
 /// curve, as an RGB PNG; white where nothing is. REQUIRES: a frame of `scene` whose first view is materials, in floats.
 Result<Bytes> labelPng(const Scene& scene, const Frame& frame, const GoOn& goOn = {});
 

@@ -16,7 +16,7 @@ std::span<const glm::vec3> verticesOf(const Scene& scene, const Instance& instan
   return std::span(scene.positions).subspan(primitive.baseVertex, primitive.vertexCount);
 }
 
-/// A node that an animation moves away from where it stands without, hides, or whose mesh it deforms; -1 = there is
+/// A node that an animation moves from its rest pose, hides, or whose mesh it deforms; -1 = there is
 /// none.
 int movedNode(const Scene& without, const Scene& with, int index) {
   const std::vector<Instance>& still = without.scenes[static_cast<std::size_t>(index)].instances;

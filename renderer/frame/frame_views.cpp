@@ -105,7 +105,7 @@ void paintDistances(const MeasuredShadow& measured, std::vector<Number>& pixels)
   }
 }
 
-/// Edges in the right place are black, and shall be seen.
+/// Edges in the right place are black, and have to be visible.
 template <class Number>
 std::vector<Number> paintedOver(const std::vector<Number>& color, std::size_t step, const MeasuredShadow& measured,
                                 View view) {

@@ -51,16 +51,16 @@ class FrameViews {
   const std::vector<ViewRequest>& requests() const { return requests_; }
   /// Some view compares a shadow with rays.
   bool needReference() const;
-  /// Some view tells of the triangles that are seen.
+  /// Some view shows the triangles that are seen.
   bool needGeometry() const;
-  /// Some view tells who throws the shadow of debug.light, and rays are to find it.
+  /// Some view shows the caster of debug.light's shadow, found by rays.
   bool needCasters() const;
 
   /// The debug light's shadow at full strength, a value a pixel, first row on top. REQUIRES: needReference, or
   /// debug.predictEdges.
   std::vector<float> fullShadow(FrameDrawing& drawing) const;
   /// The pictures of the spec's views, in their order. `measured`: null where no view compares a shadow with rays;
-  /// `geometry`: null where none tells of triangles; `casters`: casterNodes, of no meaning unless needCasters.
+  /// `geometry`: null where none shows triangles; `casters`: casterNodes, of no meaning unless needCasters.
   std::vector<ViewImage> images(FrameDrawing& drawing, const MeasuredShadow* measured, const ShownGeometry* geometry,
                                 const std::vector<int>& casters) const;
 

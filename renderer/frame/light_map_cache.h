@@ -29,9 +29,9 @@ struct BakeInput {
 };
 
 /// Light maps of earlier frames, the least recently used dropped first once they take more than a budget, and those of
-/// scenes that nobody holds any more. A map serves as long as all that its shadow depends on is the same: the scene and
-/// its pose, where the light is and how large, what the nodes switch, and how finely it is baked. Any thread; one that
-/// asks for a map waits while another thread makes that map.
+/// scenes that are in use nowhere else. A map serves as long as all that its shadow depends on is the same: the scene
+/// and its pose, where the light is and how large, what the nodes switch, and how finely it is baked. Any thread; one
+/// that asks for a map waits while another thread makes that map.
 class LightMapCache {
  public:
   /// `store`: also keeps what is baked, and is asked before anything is; may be nullptr.

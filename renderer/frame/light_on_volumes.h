@@ -34,11 +34,11 @@ std::string castersText(const ResolvedFrame& frame);
 /// reaches it.
 using LightShares = std::vector<std::vector<float>>;
 
-/// By rays to the middle of each light that throws shadows. `size`: of the volume's map.
+/// By rays to the middle of each light that casts shadows. `size`: of the volume's map.
 LightShares surfaceShares(const ShiningLights& shining, const TraceInput& rays, const VolumeSpace& space,
                           const glm::ivec3& size);
 
-/// One a light. Refer to both, which must outlive them. `shares`: empty = no surface stands before any light.
+/// One a light. Refer to both, which must outlive them. `shares`: empty = no surface blocks any light.
 std::vector<ArrivalAt> arrivalsOf(const ShiningLights& shining, const LightShares& shares);
 
 } // namespace gnomon

@@ -8,7 +8,7 @@
 /// Part of the door: see render.h.
 namespace gnomon {
 
-/// What rendering `spec` on a device of that kind would do, without one: bounds stand in for what the camera sees. Any
+/// What rendering `spec` on a device of that kind would do, without one: bounds replace what the camera sees. Any
 /// thread. The same problems as render gives, but for those of files that drawing reads, and of what is drawn.
 Result<PlanReport> planFrame(const ScenePtr& scene, const FrameSpec& spec, const RendererInfo& device);
 

@@ -16,7 +16,7 @@ struct FrameCaches {
   VolumeCache volumes;
 };
 
-/// A frame from top to bottom, whoever draws it: settled, surveyed, planned, cast, shown, compared with rays where a
+/// A frame from top to bottom, on any device: settled, surveyed, planned, cast, shown, compared with rays where a
 /// view asks, and reported. As Renderer::render.
 Result<Frame> renderFrame(Device& device, FrameCaches& caches, const ScenePtr& scene, const FrameSpec& spec,
                           TileUse tiles = TileUse::kept, const GoOn& goOn = {});

@@ -31,7 +31,7 @@ Result<std::shared_ptr<const TracedScene>> TracedSceneCache::get(const std::shar
   return traced;
 }
 
-/// Of a scene that only the traced one keeps alive: who asks now has a later one with the same surfaces, and the images
+/// Of a scene that only the traced one keeps alive: the caller has a later one with the same surfaces, and the images
 /// are its own, too.
 std::uint64_t TracedSceneCache::olderSceneBytes(const Entry& entry) {
   if (entry.scene.lock().get() == &entry.traced->scene()) return 0;

@@ -12,7 +12,7 @@
 namespace gnomon {
 
 /// Scenes sorted for rays, the least recently used dropped first once they take more than a budget or are more than
-/// 256, and those that nobody else holds any more. Any thread; one that asks for a scene waits while another is made.
+/// 256, and those that are in use nowhere else. Any thread; one that asks for a scene waits while another is made.
 class TracedSceneCache {
  public:
   explicit TracedSceneCache(std::size_t budgetBytes) : budgetBytes_(budgetBytes) {}

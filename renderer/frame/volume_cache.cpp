@@ -9,7 +9,7 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kMaxPlaces = 128; // in which volumes stood or stand, however little each takes
+constexpr std::size_t kMaxPlaces = 128; // of volumes, however small each is
 
 /// In the world, or in the space of the node.
 Result<VolumeSpace> ownSpace(const VolumeOptions& options) {

@@ -18,7 +18,7 @@ Result<VolumeSpace> spaceOf(const VolumeOptions& options, const VolumePlace& pla
 
 /// Volumes of earlier frames: grids that were read, with what their transfer functions say of them, and the light that
 /// arrives in them. The least recently used are dropped first once either takes more than a budget, and grids of files
-/// that nobody holds any more. For one thread.
+/// that are in use nowhere else. For one thread.
 class VolumeCache {
  public:
   explicit VolumeCache(std::size_t budgetBytes) : budgetBytes_(budgetBytes), lights_(budgetBytes) {}
@@ -38,7 +38,7 @@ class VolumeCache {
     std::shared_ptr<const Medium> medium;
   };
 
-  /// The same grid with the same transfer function, wherever it stood; else read now.
+  /// The same grid with the same transfer function, at any place; else read now.
   Result<Medium> filledMedium(const std::shared_ptr<const Bytes>& file, const VolumeOptions& options) const;
   void drop();
 

@@ -138,7 +138,7 @@ std::optional<Footprint> footprintOf(const CameraView& view, const ReceiverDepth
 
 namespace {
 
-/// True where `shows` holds for any block of the footprint, told the block and the box's least depth.
+/// True where `shows` holds for any block of the footprint, given the block and the box's least depth.
 template <class Shows>
 bool anyBlock(const CameraView& view, const ReceiverDepths& depths, const Footprint& footprint, Shows shows) {
   // Surveyed depths are floats, linearized: they may lie a few roundings nearer than the surface.

@@ -13,7 +13,7 @@ namespace gnomon {
 enum class DrawUse {
   survey,        ///< culled by facing; textures only for materials with holes
   cast,          ///< both faces cast, but of solids only the front ones; textures only for materials that light passes
-  castFromPoint, ///< both faces cast: the light may stand inside a solid; textures only for materials that light passes
+  castFromPoint, ///< both faces cast: the light may be inside a solid; textures only for materials that light passes
   surface        ///< culled by facing; a group for each material
 };
 
@@ -55,7 +55,7 @@ DrawList buildDrawList(const Scene& scene, const SceneView& view, const FrameGeo
 /// The triangles of a draw list are numbered through, so that a pixel can say in one word which of them it shows.
 inline constexpr std::uint32_t kNoNumber = 0xffffffffu;
 
-/// Which triangle a number stands for.
+/// The triangle of a number.
 class TriangleNumbers {
  public:
   TriangleNumbers() = default;

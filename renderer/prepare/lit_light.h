@@ -25,12 +25,12 @@ struct LitLight {
   glm::dvec3 direction{0, -1, 0}; ///< along which it shines, unit length; of no meaning for a point light
   glm::dvec3 position{0};         ///< spot and point: relative to the eye, metres
   double range = 0;               ///< metres; 0 = infinite
-  glm::dvec3 radiance{0};         ///< colour times intensity: lux (directional) or candela, linear RGB
+  glm::dvec3 radiance{0};         ///< color times intensity: lux (directional) or candela, linear RGB
   double innerCone = 0;           ///< spot: radians from the axis to where the falloff begins
   double outerCone = 0;           ///< spot: radians from the axis to where it ends
   double strength = 0;            ///< of its shadow, 0..1; 0 = casts none
   glm::dvec3 shadowColor{0};      ///< what share of the light a full shadow of strength 1 leaves
-  LitGroups groups;               ///< the receiver groups that it lights, and throws shadows onto
+  LitGroups groups;               ///< the receiver groups that it lights, and casts shadows onto
 
   // Its shadow map. Without tiles the rest has no meaning.
   int firstTile = 0; ///< of the plan
@@ -38,14 +38,14 @@ struct LitLight {
   FilterKernel filter;
   std::optional<ManualBias> manualBias; ///< none = each tile's automatic one
   bool fadesOut = false;                ///< at the far end of its last cascade
-  bool smoothTerminator = false;        ///< receivers may stand on the surface that shading shows
+  bool smoothTerminator = false;        ///< receivers may be on the surface that shading shows
 
   // What an exact technique says of it, sample by sample.
   int visibilityLayer = -1;           ///< index among the lights that have one; -1 = none
   bool layerOmitsTurnedFaces = false; ///< the layer is lit where a face is turned away from the light
 };
 
-/// The frame's lights, in their order. `plan` tells which have tiles; `groups`: what each does to the receiver groups,
+/// The frame's lights, in their order. `plan` says which have tiles; `groups`: what each does to the receiver groups,
 /// none = every light lights and shadows all; `layered`: lights that visibility layers serve, one a layer.
 std::vector<LitLight> litLights(std::span<const Light> lights, const ShadowPlan& plan, const glm::dvec3& eye,
                                 std::span<const LitGroups> groups = {}, std::span<const int> layered = {});

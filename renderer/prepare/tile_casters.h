@@ -18,12 +18,12 @@ struct TileCasters {
   std::vector<std::uint8_t> slots; ///< one a slot of the geometry; 0 = left out
 };
 
-/// Everything that may throw a shadow of `light` onto what its tile serves. `nodes`: one a node of the file; empty =
+/// Everything that may cast a shadow of `light` onto what its tile serves. `nodes`: one a node of the file; empty =
 /// every node has the defaults. Pure.
 TileCasters castersInto(const ShadowTile& tile, const Light& light, const SceneView& view,
                         const FrameGeometry& geometry, std::span<const NodeSwitches> nodes);
 
-/// Everything that a tile's texels depend on, in one text: equal keys stand for equal texels at the same place.
+/// Everything that a tile's texels depend on, in one text: equal keys mean equal texels at the same place.
 using TileKey = std::string;
 
 /// The key of a tile as it is to be drawn, `samples` depths a texel. `scene`: a number that no other scene has; `view`:

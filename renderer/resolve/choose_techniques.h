@@ -10,7 +10,7 @@ namespace gnomon {
 /// What estimates of shadows know of a scene; its lights are left out.
 SceneCounts shadowCounts(const Scene& scene, const SceneView& view);
 
-/// Settles technique auto of every light that throws a shadow, by chooseTechnique, and keeps what was chosen in
+/// Settles technique auto of every light that casts a shadow, by chooseTechnique, and keeps what was chosen in
 /// `frame.choices`. `layers`: lights whose visibility a frame may keep; beyond them lights get maps. REQUIRES: the
 /// frame has its scene.
 void chooseTechniques(const Scene& scene, DeviceKind device, std::size_t layers, ResolvedFrame& frame);

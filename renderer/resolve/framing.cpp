@@ -39,7 +39,7 @@ class Reach {
   glm::dvec3 forward_;
 };
 
-/// Half the angle's tangent that both sides need alike to hold the subject from an eye of this depth, and the eye's
+/// Half the angle's tangent that both sides need to hold the subject from an eye of this depth, and the eye's
 /// place across. What the two sides lack together falls with the tangent as a convex line of straight pieces, so that
 /// Newton's steps from below end in its zero after few of them.
 double centred(const Reach& reach, const glm::dvec3& across, double eyeDepth) {

@@ -5,7 +5,7 @@
 #include "renderer/core/camera_view.h"
 #include "renderer/resolve/seen_extent.h"
 
-/// Where a camera that looks in a given direction has to stand so that everything is in its picture, and nothing more.
+/// Position of a camera with a given direction, so that everything is in its picture, and nothing more.
 namespace gnomon {
 
 /// What is to be seen. `center` is any point amid it, from which lengths are measured; `radius` is about its size, more
@@ -24,12 +24,12 @@ FramedSubject subjectOf(const Aabb& bounds, Farthest farthest = {});
 /// each other both keep the same margin, and of one of the two pairs this is kFramingMargin of the picture's shorter
 /// side. For a perspective view each side is a plane that the subject's convex hull touches, which makes the eye's
 /// depth the solution of a linear program (as Lengyel does in "Fitting a camera to points"); the eye's place across is
-/// where both margins are equal. An orthographic view has the subject in the middle, and stands well before it. Nothing
+/// where both margins are equal. An orthographic view has the subject in the middle, and is well before it. Nothing
 /// where the axis does not lie in the picture. `view`: its axes and its lens count.
 std::optional<glm::dvec3> framingEye(const CameraView& view, const FramedSubject& subject);
 
 /// The least distance from a target at which the picture shows all of the subject, of each side's
-/// way from the axis twice kFramingMargin left; an orthographic view stands well before the subject. Nothing where the
+/// way from the axis twice kFramingMargin left; an orthographic view is well before the subject. Nothing where the
 /// axis does not lie in the picture, so that no distance does.
 std::optional<double> framingDistance(const CameraView& view, const glm::dvec3& target, const FramedSubject& subject);
 

@@ -10,17 +10,17 @@
 
 namespace gnomon {
 
-/// The lights that throw shadows in a frame, by their index: none that gives off nothing.
+/// The lights that cast shadows in a frame, by their index: none that gives off nothing.
 std::vector<int> shadowingLights(const ResolvedFrame& frame);
 
-/// How the shadow of a light is found, which throws one.
+/// How the shadow of a casting light is found.
 const TechniqueTraits& techniqueOf(const ResolvedFrame& frame, int light);
 
 /// Of these, the ones whose technique says of every sample what arrives: they have a visibility layer. Those that are
-/// baked stand behind the others.
+/// baked follow the others.
 std::vector<int> layeredLights(const ResolvedFrame& frame);
 
-/// Of the lights that throw shadows, the ones that get a shadow map: those whose technique reads one, and all of them
+/// Of the lights that cast shadows, the ones that get a shadow map: those whose technique reads one, and all of them
 /// where a view shows tiles.
 std::vector<int> mappedLights(const ResolvedFrame& frame);
 
@@ -30,8 +30,8 @@ bool needsEdges(const ResolvedFrame& frame);
 /// The lights whose maps are planned: mappedLights, and those for which technique auto chose rays.
 std::vector<int> plannedLights(const ResolvedFrame& frame);
 
-/// The parts of what is seen that a survey tells by themselves, because a planned light throws shadows on them alone:
-/// receiver groups, a bit each. No part twice, and none for lights that throw shadows on all.
+/// The parts of what is seen that a survey reports separately, because a planned light casts shadows on them alone:
+/// receiver groups, a bit each. No part twice, and none for lights that cast shadows on all.
 std::vector<std::uint32_t> receiverParts(const ResolvedFrame& frame);
 
 /// What a frame's shadow maps are planned from: those of plannedLights. `seen`: what the camera sees, its parts those

@@ -12,7 +12,7 @@
 namespace gnomon {
 namespace {
 
-/// Orthonormal axes; `up` is bent to stand on the view direction.
+/// Orthonormal axes; `up` is made perpendicular to the view direction.
 void orient(CameraView& view, const EyeTarget& place) {
   view.eye = toVector(place.eye);
   view.forward = glm::normalize(toVector(place.target) - view.eye);
@@ -20,7 +20,7 @@ void orient(CameraView& view, const EyeTarget& place) {
   view.up = glm::cross(view.right, view.forward);
 }
 
-/// The numbers of a calibration are rounded: `forward` stays as it is, and `up` is bent to stand on it.
+/// The numbers of a calibration are rounded: `forward` stays as it is, and `up` is made perpendicular to it.
 void orient(CameraView& view, const CameraPose& pose) {
   const auto column = [&](std::size_t i) {
     const Rows4& rows = pose.worldFromCamera;
@@ -49,7 +49,7 @@ void setExtent(Intrinsics& lens, const glm::dvec2& size, CameraView& view) {
 }
 
 /// Reversed float depth keeps its relative precision however small near is, so it only has to be out of the way: of
-/// whatever stands a millimetre before the eye.
+/// whatever is a millimetre before the eye.
 constexpr double kNearestDrawn = 5e-4;
 
 /// `radius`: of the scene, metres.

@@ -29,7 +29,7 @@ struct ResolvedFrame {
   std::vector<std::optional<TechniqueChoice>> choices{};
 };
 
-/// Fills in what only the scene can tell. The spec has passed protocol/validate. All that the scene refuses is added to
+/// Fills in what depends on the scene. The spec has passed protocol/validate. All that the scene refuses is added to
 /// `problems`; where that is anything, the frame says only what its lights are, and `scene` is -1 if it is the index
 /// that the file does not have.
 ResolvedFrame resolveFrame(const Scene& scene, const FrameSpec& spec, ProblemList& problems);

@@ -12,7 +12,7 @@
 
 namespace gnomon {
 
-/// How a volume takes part in a frame, by the node that it stands at.
+/// Visibility and shadows of a volume, by its node.
 struct VolumePlace {
   std::optional<glm::dmat4> worldFromNode{}; ///< nothing = it is placed in the world
   bool visible = true;                       ///< to the camera

@@ -18,10 +18,10 @@ constexpr double kDefaultGuard = 1.0;
 constexpr double kOutwards = 1.1;
 constexpr double kInwards = 2.0;
 
-/// A range thinner than this share of its own depth can't be cut into cascades that floats tell apart.
+/// A range thinner than this share of its own depth can't be cut into cascades that floats distinguish.
 constexpr double kThinnest = 1e-5;
 
-/// `view`: depths are told apart from its eye, not from the one that was asked for (CameraView::ahead).
+/// `view`: depths are measured from its eye, not from the one that was asked for (CameraView::ahead).
 DepthInterval widened(const CameraView& view, DepthInterval range) {
   const double magnitude = std::max({std::abs(range.near - view.ahead), std::abs(range.far - view.ahead), 1e-6});
   const double missing = kThinnest * magnitude - (range.far - range.near);

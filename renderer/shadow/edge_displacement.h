@@ -6,12 +6,12 @@
 #include "renderer/shadow/shadow_plan.h"
 
 /// How far an edge of a shadow is off because a map has texels and a bias: what EdgeDisplacement::mean is expected to
-/// be, told without rays.
+/// be, estimated without rays.
 namespace gnomon {
 
 /// How a map's texels are read where an edge is looked for.
 struct MapReading {
-  double taps = 1; ///< texels along a side that are weighed alike, besides the bilinear lookup; a disc's are broken
+  double taps = 1; ///< texels along a side that have equal weight, besides the bilinear lookup; a disc's are broken
   bool bilinear = true; ///< false = the texel under a point is taken as it is
   double scatter = 0;   ///< texels: mean distance between the edge and where a disc's few comparisons put it
 };

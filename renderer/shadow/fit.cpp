@@ -28,7 +28,7 @@ double depthMargin(double depthLength, double moved, double magnitude) {
 }
 
 /// How far before the nearest receiver the depths of a blurred map begin: a caster farther off is flattened onto that
-/// plane, and must still stand clear of what it shades, for moments can't tell close depths apart.
+/// plane, and must be clear of what it shades, for moments can't separate close depths.
 double clearance(const FitTarget& target, double depthLength, double width) {
   return target.kernel.moments ? std::max(depthLength, 0.25 * width) : 0.0;
 }

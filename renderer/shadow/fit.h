@@ -19,7 +19,7 @@ struct LightBasis {
   glm::dvec3 up{0, 1, 0};
   glm::dvec3 direction{0, 0, -1};
 
-  /// Rows right, up, direction: a pure turn, so that it takes world and eye-relative points alike.
+  /// Rows right, up, direction: a pure turn, so that it takes both world and eye-relative points.
   glm::dmat3 lightFromWorld() const { return glm::transpose(glm::dmat3(right, up, direction)); }
 };
 
@@ -34,7 +34,7 @@ inline glm::dmat4 lightFromRelative(const LightBasis& basis, const glm::dvec3& o
 /// The basis for a unit direction. It depends on nothing but the direction and turns as little as it: at the vertical,
 /// where a basis made from a world "up" jumps, the roll changes about as much as the light moved. A tangent field on
 /// the sphere must spin somewhere; here that is around light shining up from a point 11 degrees below the horizon,
-/// where no sun stands. There too the basis is finite and orthonormal.
+/// where no sun is. There too the basis is finite and orthonormal.
 LightBasis lightBasis(const glm::dvec3& direction);
 
 /// Metres from the eye to the farthest point of a slice: what a view sees between two depths.
@@ -45,7 +45,7 @@ struct Sphere {
   double radius = 0;
 };
 
-/// The smallest sphere around a slice. Its radius depends on the lens and the depths, not on where the camera stands or
+/// The smallest sphere around a slice. Its radius depends on the lens and the depths, not on where the camera is or
 /// looks.
 Sphere sliceSphere(const CameraView& view, const DepthInterval& depths);
 

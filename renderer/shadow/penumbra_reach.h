@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-/// How far from a receiver's own place a caster may stand that takes a share of a light's disc from it.
+/// How far from a receiver's own place a caster may be that takes a share of a light's disc from it.
 struct PenumbraReach {
   double nearest = 0; ///< light space z of the caster nearest to the light
   double radius = 0;  ///< metres across the light
@@ -34,7 +34,7 @@ PenumbraReach penumbraReach(const Aabb& receiversLs, const Aabb& scene, const gl
 /// `farthest`, metres along that direction.
 double penumbraTangent(double nearest, double farthest, double lightRadius);
 
-/// Light space z, metres, of the nearest caster in `scene` that takes a share of such light from a receiver and stands
+/// Light space z, metres, of the nearest caster in `scene` that takes a share of such light from a receiver and is
 /// no more than `widest` (a tangent) off it. `seen`: the receivers as tangentsOf gives them (fit.h). Never too much;
 /// that of the nearest receiver where no caster does.
 double nearestCasterInPyramid(const Aabb& seen, const Aabb& scene, const glm::dmat4& lightFromScene, double lightRadius,

@@ -39,7 +39,7 @@ std::vector<float> texelExtents(const CameraView& view, const SeenBlocks& seen, 
 /// The percentiles by nearest rank; absent for none.
 std::optional<PredictedError> errorOf(std::vector<float> extents);
 
-/// `plan`: of the input. Each light's errors are told where it throws shadows, and nowhere else.
+/// `plan`: of the input. Each light's errors are estimated only where it casts shadows.
 PredictedErrors predictErrors(const PlanInput& input, const ShadowPlan& plan);
 
 } // namespace gnomon

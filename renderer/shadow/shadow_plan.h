@@ -54,9 +54,9 @@ struct ShadowCaster {
   double range = 0;             ///< metres; spot and point; 0 = no end
   double outerCone = 0;         ///< half angle, radians, less than a quarter turn; spot
   double lightRadius = 0;       ///< of the light itself, see radiusOf in renderer/core/light.h
-  bool casts = true;            ///< something of its layers throws shadows
+  bool casts = true;            ///< something of its layers casts shadows
   bool shadows = true;          ///< something of its layers that the camera may see receives them
-  int part = -1;                ///< of what is seen, which it throws shadows on: index into SeenDepths::parts; -1 = all
+  int part = -1;                ///< of what is seen, which it casts shadows on: index into SeenDepths::parts; -1 = all
   std::optional<Aabb> bounds{}; ///< in the world: of what casts or receives its shadows; absent = the scene's
 };
 
@@ -73,7 +73,7 @@ struct PlanInput {
   int frameHeight = 0;
 };
 
-/// What the camera sees of the surfaces on which a light throws its shadows. Nothing else decides about them.
+/// What the camera sees of the surfaces on which a light casts its shadows. Nothing else decides about them.
 inline const ReceiverDepths& receiversOf(const PlanInput& input, const ShadowCaster& caster) {
   return caster.part < 0 ? input.receivers : input.parts[static_cast<std::size_t>(caster.part)];
 }

@@ -20,7 +20,7 @@ inline constexpr int kSmallestTile = 64;
 Sphere reachOf(const ShadowCaster& light);
 
 /// How large a light shows in the picture, pixels: the larger side of the frame for a directional light, for one
-/// without an end, and where the camera stands within its reach; else the diameter of the circle around the picture of
+/// without an end, and where the camera is within its reach; else the diameter of the circle around the picture of
 /// the sphere that it reaches, no more than the larger side; 0 where that is out of view. Rounded up.
 int lightSize(const ShadowCaster& light, const CameraView& view, int frameWidth, int frameHeight);
 
@@ -35,7 +35,7 @@ struct TileRequest {
 /// The size that each request gets so that all fit into a square of `atlasSide` texels (a power of two); 0 = refused.
 /// While they don't fit, a request of the least importance is halved: of those the one with the largest tiles, of
 /// equals the one with the highest light. Only where none of them can shrink does the next importance yield. Where even
-/// tiles of kSmallestTile don't fit, the highest light of the least importance is refused and the others start anew.
+/// tiles of kSmallestTile don't fit, the highest light of the least importance is refused and the others start again.
 /// What is left over in the end goes back to the halved ones, the most important first.
 std::vector<int> grantTileSizes(std::span<const TileRequest> requests, int atlasSide);
 

@@ -54,7 +54,7 @@ Aabb clipBox(const TileSpace& space, const Aabb& boxLs) {
             glm::dvec3(high, (boxLs.max.z - fit.depthNear) / fit.depthExtent)};
   }
   if (boxLs.max.z <= 0) return {};
-  // A part of the box behind the light throws no shadow; one beside it reaches as far out as can be told.
+  // A part of the box behind the light casts no shadow; one beside it reaches out without a known limit.
   const double near = std::max(boxLs.min.z, 1e-9 * depthFar(fit));
   const double far = std::max(boxLs.max.z, near);
   const glm::dvec2 x = quotients(boxLs.min.x, boxLs.max.x, near, far);
@@ -113,7 +113,7 @@ ReceiverMask receiverMask(const std::vector<Aabb>& piecesClip, const glm::dvec2&
 }
 
 // Along each clip axis the box reaches as far as its half extents do through the absolute matrix (Arvo, Graphics Gems
-// 1990). Towards the light nothing limits a caster: whatever stands before z 0 is drawn with its depth clamped.
+// 1990). Towards the light nothing limits a caster: whatever is before z 0 is drawn with its depth clamped.
 bool mayCastInto(const ShadowTile& tile, const Aabb& casterBounds) {
   if (tile.rect.width <= 0 || casterBounds.empty()) return false;
   const Aabb clip = clipBox(tile.space, lightSpaceBox(tile.space, casterBounds));

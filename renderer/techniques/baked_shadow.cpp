@@ -26,7 +26,7 @@ void lookUp(const PicturePoints& points, const BakedLight& baked, ShownSamples& 
   waiting.count = 0;
 }
 
-/// The same of a square whose samples all show one triangle: the middle of a pixel lies in that too, and stands for all
+/// The same of a square whose samples all show one triangle: the middle of a pixel lies in that too, and represents all
 /// of the pixel.
 void lookUpSquare(const PicturePoints& points, const BakedLight& baked, const Rect& square, std::uint32_t number,
                   std::uint16_t* shares) {

@@ -138,7 +138,7 @@ Pixels traceDoubtful(const PicturePoints& points, const TracedLight& light, int 
         others.values.push_back(shares.valuesOf(at.pixels[i]) + at.sample);
         places.shown[i] = {};
       }
-      // Of a pixel that has one sample, rays from the point as it was drawn have told the share.
+      // Of a pixel that has one sample, rays from the point as it was drawn have given the share.
       if (shares.places == 1) return;
       traceDrawn(light, places, at, rays, shares, [&](std::size_t i) { return isDrawn[i]; });
     });

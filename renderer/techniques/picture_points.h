@@ -110,7 +110,7 @@ class PicturePoints {
   /// The block as rays know it. `number`: of the triangle that it shows alone.
   DrawnBlock drawnBlock(const Rect& block, std::uint32_t number) const;
 
-  /// The triangle that a number stands for. REQUIRES: one that is shown.
+  /// The triangle of a number. REQUIRES: one that is shown.
   PlacedTriangle placed(std::uint32_t number) const {
     PlacedTriangle triangle;
     numbers_.of({&number, 1}, {&triangle, 1});

@@ -112,7 +112,7 @@ struct PictureShares {
     return high - low >= least;
   }
 
-  /// Of a pixel whose samples are all told by one of them.
+  /// Of a pixel whose samples are all represented by one of them.
   void set(std::uint32_t pixel, float share) {
     std::uint16_t* own = valuesOf(pixel);
     *own = unorm16(share);

@@ -61,7 +61,7 @@ class ShadowTracing {
   }
 
   /// The pixels at edges of the shadow whose points are not exact yet. None in the shadow of a light that has a size
-  /// where a pixel has one sample: rays from there have told it.
+  /// where a pixel has one sample: rays from there have found it.
   Pixels atEdges() {
     if (isSoft() && places_ == 1) return {};
     const auto apartBy = [&](std::uint8_t apart) { return pixelsApart(grid(), known_.shares, apart); };

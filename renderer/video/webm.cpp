@@ -17,7 +17,7 @@ void putId(std::string& text, std::uint32_t id) {
   putBytes(text, id, id > 0xffffff ? 4 : id > 0xffff ? 3 : id > 0xff ? 2 : 1);
 }
 
-/// As short as it can be: the first set bit tells how many bytes there are, of 7 bits each. All bits set = unknown.
+/// As short as it can be: the first set bit says how many bytes there are, of 7 bits each. All bits set = unknown.
 void putSize(std::string& text, std::uint64_t size) {
   int bytes = 1;
   while (size >= (1ull << (7 * bytes)) - 1) ++bytes;

@@ -6,7 +6,7 @@
 
 namespace gnomon {
 
-/// The number that an IEEE 754 binary16 stands for; every one is a float.
+/// The value of an IEEE 754 binary16; every one is a float.
 inline float fromHalf(std::uint16_t half) {
   const std::uint32_t sign = std::uint32_t{half & 0x8000u} << 16;
   const std::uint32_t exponent = half >> 10 & 31u;

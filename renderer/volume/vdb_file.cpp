@@ -63,7 +63,7 @@ class Child : public VdbProcess {
   pid_t id_;
 };
 
-/// Where this program's own may lie; none where the system does not tell.
+/// Where this program's own may lie; none where it is unknown.
 const std::vector<std::filesystem::path>& ownPrograms() {
   static const std::vector<std::filesystem::path> paths = [] {
     std::error_code error;

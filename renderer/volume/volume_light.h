@@ -11,7 +11,7 @@
 
 namespace gnomon {
 
-inline constexpr int kMaxVolumeLightSide = 64; ///< texels, of a map whose size nobody chose
+inline constexpr int kMaxVolumeLightSide = 64; ///< texels, of a map without a given size
 
 /// Light on its way to one place.
 struct Arrival {

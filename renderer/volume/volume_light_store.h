@@ -15,8 +15,8 @@ namespace gnomon {
 /// Everything that a light map depends on. Grids are the same where they are the same object.
 class VolumeLightKey {
  public:
-  /// `lights`, `casters`: any text that differs where the lights, or the surfaces that throw shadows and where they
-  /// stand, differ.
+  /// `lights`, `casters`: any text that differs where the lights, or the surfaces that cast shadows and where they
+  /// are, differ.
   VolumeLightKey(const VolumeLightInput& input, std::string lights, std::string casters);
 
   bool operator==(const VolumeLightKey& other) const;

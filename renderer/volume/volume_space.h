@@ -24,7 +24,7 @@ struct Interval {
   double to = 0;
 };
 
-/// Where a volume is: the unit cube, moved, turned, stretched and sheared into the world. The corner stands apart from
+/// Where a volume is: the unit cube, moved, turned, stretched and sheared into the world. The corner is kept apart from
 /// the axes, so that digits are kept far from the origin.
 struct VolumeSpace {
   glm::dvec3 corner{0}; ///< of the world: where the cube's 0, 0, 0 lies

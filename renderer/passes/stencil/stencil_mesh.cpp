@@ -17,12 +17,12 @@ void endDraw(IndexedDraws& draws, std::size_t firstIndex, std::int32_t baseVerte
       {static_cast<std::uint32_t>(count), 1, static_cast<std::uint32_t>(firstIndex), baseVertex, instance});
 }
 
-/// Which triangles throw, of the piece that triangle `t` is part of.
+/// Which triangles cast, of the piece that triangle `t` is part of.
 StencilCaps capsAt(const StencilCaster& caster, const EdgeMesh& mesh, std::size_t t) {
   return caster.caps.size() == 1 ? caster.caps.front() : caster.caps[mesh.pieceOf[t]];
 }
 
-/// The triangles of a caster that throw its shadow: how each is turned to the light, 0 = it does not.
+/// The triangles of a caster that cast its shadow: how each is turned to the light, 0 = it does not.
 std::vector<std::int8_t> throwers(const Scene& scene, const Instance& instance, const glm::dvec4& light,
                                   const StencilCaster& caster, const EdgeMesh& mesh) {
   const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
@@ -94,7 +94,7 @@ double farEnough(const Scene& scene, const SceneView& view, const Instance& inst
     };
     least = std::min(least, sag(away(0), away(1), away(2)));
   }
-  constexpr double kLeast = 1e-6; // nothing that throws a shadow is seen more edge-on (facings)
+  constexpr double kLeast = 1e-6; // nothing that casts a shadow is seen more edge-on (facings)
   return 2 * (radius + glm::length(glm::dvec3(light) - view.bounds.center())) / std::max(least, kLeast);
 }
 
