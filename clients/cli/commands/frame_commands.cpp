@@ -33,8 +33,8 @@ struct RenderOptions {
 };
 
 /// Writes the report, and prints the names of the pictures if there are several.
-Status writeReport(const BatchItem& item, const std::string& reportJson, const std::vector<std::string>& names,
-                   ProgressLine& progress) {
+Status finishItem(const BatchItem& item, const std::string& reportJson, const std::vector<std::string>& names,
+                  ProgressLine& progress) {
   if (!item.report.empty()) {
     if (auto done = writeFile(item.report, asBytes(reportJson)); !done) return done;
   }
@@ -49,7 +49,7 @@ Status writeAll(const BatchItem& item, const Rendered& rendered, ProgressLine& p
   progress.stage("writing");
   const auto names = writePictures(rendered.pictures, item.output);
   if (!names) return names.problems();
-  return writeReport(item, rendered.reportJson, *names, progress);
+  return finishItem(item, rendered.reportJson, *names, progress);
 }
 
 /// The same, and the frame with exact shadows beside it, and how wrong the frame's own are.
@@ -66,7 +66,7 @@ Status writeWithReference(const BatchItem& item, const Rendered& rendered, Frame
   const auto report = maker.measure(errorRequest(*spec), progress);
   const auto metrics = report ? metricsOf(*report) : Result<ErrorMetrics>(report.problems());
   if (!metrics) return about("error", metrics.problems());
-  if (auto done = writeReport(item, withMetrics(rendered.reportJson, *report), *names, progress); !done) return done;
+  if (auto done = finishItem(item, withMetrics(rendered.reportJson, *report), *names, progress); !done) return done;
   if (item.report != "-") std::cout << errorText(*metrics) << '\n';
   return Done{};
 }

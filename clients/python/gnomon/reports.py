@@ -42,7 +42,7 @@ class TileReport(TypedDict, total=False):
         x, y, width and height in the atlas, from its lower left corner, border included; width 0 = no surface in
         view lies in it, so it is not drawn. Unit: texels.
     border:
-        Width of its border, which is there for filters to read. Unit: texels.
+        Width of its border, read by filters only. Unit: texels.
     texelSize:
         Size of a texel across and along; for a face, at its far end. Unit: metres.
     matrix:
@@ -98,12 +98,12 @@ class TechniqueChoice(TypedDict, total=False):
     """What technique auto chose for a light.
 
     technique:
-        shadowMap or rayTraced; `spec` names it too, so that asking for `spec` again draws the same. auto = for each
+        shadowMap or rayTraced; `spec` names it too, so that requesting `spec` again draws the same. auto = for each
         light rayTraced where that is estimated to cost at most twice its map, else shadowMap; shadowMap = depths
         seen from the light, filtered: fast, and as exact as its texels are fine; shadowVolume = stencilled shadow
-        volumes: exact and sharp, drawn by the device `gl` alone; rayTraced = rays for every pixel: exact, and soft
-        where the light has a size; lightMap = rays for every texel of the scene's surfaces, once, and a lookup in
-        each frame: soft where the light has a size, for scenes that stand still.
+        volumes: exact and sharp, drawn by the device; rayTraced = rays for every pixel: exact, and soft where the
+        light has a size; lightMap = rays for every texel of the scene's surfaces, once, and a lookup in each frame:
+        soft where the light has a size, for static scenes.
     why:
         The reason, in a sentence.
     mapMilliseconds:
@@ -154,18 +154,18 @@ class LightMapReport(TypedDict, total=False):
 
 
 class LightReport(TypedDict, total=False):
-    """What was decided for one light.
+    """Decisions for one light.
 
     light:
         Index into the lights of `spec`.
     shadowed:
         True = its shadow was drawn.
     askedTileSize:
-        Side of a tile that was asked for; 0 = no shadow was asked for. Unit: texels.
+        Side of a tile as requested; 0 = no shadow was requested. Unit: texels.
     grantedTileSize:
-        Side of a tile that it got; 0 = none. Unit: texels.
+        Side of its tiles in the atlas; 0 = none. Unit: texels.
     note:
-        Why no shadow was drawn, or what was decided differently; empty = as asked.
+        Why no shadow was drawn, or what differs from the request; empty = nothing.
     depthRange:
         View depths that a directional light's cascades cover, without a guard. Pass it as
         `shadow.depthRange.previous` of the next frame. Absent = none was drawn.
@@ -214,13 +214,13 @@ class VolumeReport(TypedDict, total=False):
     voxels:
         Grid resolution in x, y, z; 0 if its node is hidden.
     values:
-        The least and the greatest of its grid.
+        Least and greatest value of its grid.
     reused:
         True = an earlier frame made its light; false = this one did.
     lightSize:
         Points at which its light is known, along x, y and z.
     lightBytes:
-        What that takes. Unit: bytes.
+        Memory of these points. Unit: bytes.
     lightMilliseconds:
         Time that making its light took when it was made. Unit: milliseconds.
     """
@@ -259,11 +259,11 @@ class ErrorMetrics(TypedDict, total=False):
     receivers:
         Number of receivers, over all lights measured. Unit: pixels.
     misclassified:
-        Share that is in shadow but should be lit, or lit but should be in shadow.
+        Share that the frame and the reference classify differently: lit in one, in shadow in the other.
     falseShadow:
-        Part of it: in shadow, should be lit.
+        Part of it: in shadow, lit in the reference.
     falseLit:
-        Part of it: lit, should be in shadow.
+        Part of it: lit, in shadow in the reference.
     acne:
         False shadow farther than 2 pixels from every true edge: a surface shadows itself.
     leak:
@@ -394,18 +394,18 @@ PassReport = TypedDict(
 
 
 class FrameReport(TypedDict, total=False):
-    """What a frame's rendering decided and took.
+    """Decisions, times and counts of a rendered frame.
 
     spec:
-        The effective request: every default filled in. It asks for the same frame again.
+        The effective request: every default filled in. Sent as a request, it gives the same frame again.
     depthRange:
         Nearest and farthest surface in view; 0 0 = nothing in view. Unit: metres. Default: [0.0, 0.0].
     atlasSize:
         Width and height of the atlas; 0 0 = no atlas. Unit: texels. Default: [0, 0].
     lights:
-        What was decided for each light.
+        Decisions for each light.
     volumes:
-        What was made for each volume.
+        Grid and light of each volume.
     predictedError:
         How large the texels of all tiles appear; absent if no tile was drawn.
     error:
@@ -422,8 +422,8 @@ class FrameReport(TypedDict, total=False):
         Time of each stage: queue, load, upload, bake, volume (with `volumes`), survey, plan, shadow, shade, predict
         (with `debug.predictEdges`), reference (if a view asks for rays), readback, encode. Unit: milliseconds.
     warnings:
-        What the file holds that is drawn differently, what of the request was, and what the picture is likely to
-        lack: each a sentence, with what to set.
+        What differs from the file or the request, and what the picture is likely to lack: each a sentence, with
+        what to set.
     """
 
     spec: Dict[str, Any]
@@ -442,11 +442,11 @@ class FrameReport(TypedDict, total=False):
 
 
 class PlanReport(TypedDict, total=False):
-    """What a frame would do, decided without drawing it: boxes around what the camera may see stand in for its
-    surfaces, so every tile covers what the frame's would, and perhaps more.
+    """What a frame would do, decided without drawing it: boxes around what the camera may see replace its surfaces, so
+    every tile covers what the frame's would, and perhaps more.
 
     spec:
-        The effective request: every default filled in. It asks for the same frame again.
+        The effective request: every default filled in. Sent as a request, it gives the same frame again.
     depthRange:
         Nearest and farthest end of a box in view; 0 0 = nothing in view. Unit: metres. Default: [0.0, 0.0].
     atlasSize:
@@ -456,7 +456,7 @@ class PlanReport(TypedDict, total=False):
     predictedError:
         Upper bound of how large the texels of all tiles would appear; absent if no tile would be drawn.
     warnings:
-        What the frame's report would warn of, as far as it can be told without drawing.
+        What the frame's report would warn of, as far as it is known without drawing.
     """
 
     spec: Dict[str, Any]
@@ -648,8 +648,8 @@ class RendererInfo(TypedDict, total=False):
     maxSamples:
         Most samples a pixel. Default: 0.
     device:
-        What draws. auto = OpenGL on a GPU, or else the processor; cpu = the processor alone; gl = OpenGL, by
-        whatever driver there is. Default: "gl".
+        The device that draws. auto = OpenGL on a GPU, or else the processor; cpu = the processor alone; gl =
+        OpenGL, by whatever driver there is. Default: "gl".
     fingerprint:
         Changes whenever the same request could give other bytes: with the driver, the CPU's make and the build.
     """
@@ -824,7 +824,7 @@ class VariantProblem(TypedDict, total=False):
     limit:
         What would have been accepted.
     actual:
-        What came.
+        What was sent.
     """
 
     code: str
@@ -842,7 +842,7 @@ class EvaluationRow(TypedDict, total=False):
     name:
         Short name.
     milliseconds:
-        Median time of a whole warm frame, with all tiles drawn anew, without encoding. Absent in an event `row`,
+        Median time of a whole warm frame, with all tiles drawn again, without encoding. Absent in an event `row`,
         and if there is a problem. Unit: milliseconds.
     stages:
         Median time of each stage. Unit: milliseconds.
@@ -915,7 +915,7 @@ class BakedLightReport(TypedDict, total=False):
 
 
 class BakeReport(TypedDict, total=False):
-    """What baking ahead made.
+    """Result of baking ahead.
 
     key:
         Names the bake: SHA-256 of the scene and of every field that a bake depends on.
@@ -931,7 +931,7 @@ class BakeReport(TypedDict, total=False):
 
 
 class SequenceFrameReport(TypedDict, total=False):
-    """What one frame of a sequence took.
+    """Times of one frame of a sequence.
 
     index:
         Which frame.
@@ -947,7 +947,7 @@ class SequenceFrameReport(TypedDict, total=False):
 
 
 class SequenceReport(TypedDict, total=False):
-    """What a sequence took and leaves behind.
+    """Times of a sequence, and what continues it.
 
     frames:
         One entry for each frame that was drawn.
@@ -955,11 +955,11 @@ class SequenceReport(TypedDict, total=False):
         Time from the first frame's beginning to the last one's pictures, waiting for the client included. Unit:
         milliseconds.
     framesPerSecond:
-        As it was asked for. Unit: frames per second.
+        As requested. Unit: frames per second.
     carried:
         What the last frame leaves to a sequence that continues this one.
     warnings:
-        What was drawn differently from what was asked, over all frames, each once; at most 32.
+        What differs from the request, over all frames, each once; at most 32.
     renderer:
         The graphics context that drew the frames.
     """
@@ -973,10 +973,10 @@ class SequenceReport(TypedDict, total=False):
 
 
 class ProblemEntry(TypedDict, total=False):
-    """One thing that is wrong.
+    """One problem.
 
     code:
-        What kind of thing. malformed = Malformed Request; invalidValue = Invalid Value; notFound = Not Found;
+        Kind of problem. malformed = Malformed Request; invalidValue = Invalid Value; notFound = Not Found;
         methodNotAllowed = Method Not Allowed; unauthorized = Unauthorized; forbidden = Forbidden; misdirected =
         Misdirected Request; notAcceptable = Not Acceptable; lengthRequired = Length Required; tooLarge = Content
         Too Large; unsupportedMediaType = Unsupported Media Type; invalidScene = Invalid Scene; unsupportedFeature =
@@ -990,7 +990,7 @@ class ProblemEntry(TypedDict, total=False):
     limit:
         What would have been accepted.
     actual:
-        What came, shortened.
+        What was sent, shortened.
     """
 
     code: Literal["malformed", "invalidValue", "notFound", "methodNotAllowed", "unauthorized", "forbidden", "misdirected", "notAcceptable", "lengthRequired", "tooLarge", "unsupportedMediaType", "invalidScene", "unsupportedFeature", "hashMismatch", "busy", "deadlineExceeded", "unavailable", "insufficientStorage", "backend", "internal"]
@@ -1001,13 +1001,13 @@ class ProblemEntry(TypedDict, total=False):
 
 
 class Job(TypedDict, total=False):
-    """A sequence that is drawn while nobody waits for it.
+    """A sequence that is drawn in the background.
 
     id:
-        Names the job; nobody can guess it.
+        Names the job; not guessable.
     state:
-        What it is doing. queued = no frame was begun; running = some frames were begun; done = all frames are
-        drawn; failed = a frame could not be drawn; cancelled = it was removed while somebody waited for it.
+        State of the job. queued = no frame was begun; running = some frames were begun; done = all frames are
+        drawn; failed = a frame could not be drawn; cancelled = it was removed while a client waited for it.
     scene:
         Id of its scene.
     first:
@@ -1019,7 +1019,7 @@ class Job(TypedDict, total=False):
     bytes:
         Size of the pictures so far. Unit: bytes.
     created:
-        When it was asked for; RFC 3339, in UTC, as all its times.
+        When it was requested; RFC 3339, in UTC, as all its times.
     started:
         When its first frame was begun; absent = not yet.
     ended:
@@ -1029,11 +1029,11 @@ class Job(TypedDict, total=False):
     problems:
         Why it failed; pointers are places in the request for the sequence.
     address:
-        Where it is.
+        Address of the job.
     result:
-        Where all frames are, in the forms of a sequence.
+        Address of all frames, in the forms of a sequence.
     frames:
-        Where one frame is, with its index for `{index}`.
+        Address of one frame, with its index for `{index}`.
     """
 
     id: str

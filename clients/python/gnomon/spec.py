@@ -19,7 +19,7 @@ Matrix = Union[Sequence[Sequence[float]], npt.NDArray[np.generic]]
 
 @dataclass
 class Orbit:
-    """Where the camera stands on a sphere around a target.
+    """A position on a sphere around a target.
 
     target:
         Centre of the sphere, at which the camera looks; absent = the centre of the scene, or without `distance` the
@@ -42,7 +42,7 @@ class Orbit:
 
 @dataclass
 class CameraPose:
-    """Where a camera stands and how it is turned, as a matrix.
+    """Position and rotation of a camera, as a matrix.
 
     worldFromCamera:
         The matrix, row by row, that takes points of the camera's space into the world: a rotation without mirroring
@@ -123,7 +123,7 @@ class Camera:
     """At most one placement and at most one lens; without a placement, an orbit that shows the whole scene.
 
     eye:
-        Where the camera stands; 0 0 5 if only `target` or `up` is given. Unit: metres.
+        Position of the camera; 0 0 5 if only `target` or `up` is given. Unit: metres.
     target:
         The point that the camera looks at, different from `eye`; 0 0 0 if only `eye` or `up` is given. Unit:
         metres.
@@ -163,7 +163,7 @@ class Sun:
     """A direction given by the sun's place in the sky.
 
     azimuthDegrees:
-        Where the sun stands, clockwise from north (-Z) as seen from above; east (+X) is 90. Unit: degrees. Default:
+        Direction of the sun, clockwise from north (-Z) as seen from above; east (+X) is 90. Unit: degrees. Default:
         135.0.
     elevationDegrees:
         Height of the sun above the horizon; negative = below it. Unit: degrees. Default: 45.0.
@@ -314,9 +314,9 @@ class Shadow:
         a light that sets a filter or a bias gets a map. The report says what auto chose, and why. auto = for each
         light rayTraced where that is estimated to cost at most twice its map, else shadowMap; shadowMap = depths
         seen from the light, filtered: fast, and as exact as its texels are fine; shadowVolume = stencilled shadow
-        volumes: exact and sharp, drawn by the device `gl` alone; rayTraced = rays for every pixel: exact, and soft
-        where the light has a size; lightMap = rays for every texel of the scene's surfaces, once, and a lookup in
-        each frame: soft where the light has a size, for scenes that stand still. Default: "auto".
+        volumes: exact and sharp, drawn by the device; rayTraced = rays for every pixel: exact, and soft where the
+        light has a size; lightMap = rays for every texel of the scene's surfaces, once, and a lookup in each frame:
+        soft where the light has a size, for static scenes. Default: "auto".
     strength:
         0 = no shadow, 1 = no direct light in shadow. Default: 1.0.
     color:
@@ -399,7 +399,7 @@ class Light:
     sun:
         The sun's place in the sky, instead of `direction`; directional lights only.
     position:
-        Where the light stands; required for spot and point lights, refused for directional ones. Unit: metres.
+        Position of the light; required for spot and point lights, refused for directional ones. Unit: metres.
     range:
         Distance beyond which the light has no effect; spot and point lights; absent = no limit. A short range lets
         more lights be culled. Unit: metres.
@@ -411,11 +411,12 @@ class Light:
         up to five. Unit: degrees. Default: 45.0.
     angularDiameterDegrees:
         Angle that the light's disc spans in the sky, 0.53 for the real sun; directional lights only; absent = 0.
-        Techniques rayTraced and lightMap, filter pcss and the exact reference draw a soft shadow for it; the others
-        know no size. Unit: degrees.
+        Techniques rayTraced and lightMap, filter pcss and the exact reference draw a soft shadow for it; all other
+        techniques ignore it and draw a hard edge. Unit: degrees.
     radius:
         Radius of the glowing ball; spot and point lights; absent = 0. Techniques rayTraced and lightMap, filter
-        pcss and the exact reference draw a soft shadow for it; the others know no size. Unit: metres.
+        pcss and the exact reference draw a soft shadow for it; all other techniques ignore it and draw a hard edge.
+        Unit: metres.
     color:
         Linear red, green and blue; absent = white, or the color of `temperatureKelvin`.
     temperatureKelvin:
@@ -482,8 +483,8 @@ class NodeOptions:
     layers:
         Bit mask of its layers, matched with the lights' `cullingMask`; absent = 1, the first layer.
     matrix:
-        Where it stands in the space of its parent, instead of where the file or an animation puts it: an affine
-        matrix, column by column, as in glTF.
+        Its transform in the space of its parent, instead of that of the file or an animation: an affine matrix,
+        column by column, as in glTF.
     translation:
         Its place in the space of its parent; absent = as the file or the animation has it, 0 0 0 for a node with a
         matrix there. Unit: metres.
@@ -522,7 +523,7 @@ class VolumeBox:
 
 @dataclass
 class TransferStop:
-    """What a value of the grid means to light.
+    """Color and extinction of a value of the grid.
 
     value:
         A value of the grid, more than that of the entry before. Default: 0.0.
@@ -548,9 +549,9 @@ class VolumeOptions:
     grid:
         Name of a float grid of a .vdb; absent = the only one.
     node:
-        A node of the scene that the volume stands at and moves with, by its index or name: `box` or `matrix` is in
-        its space, without both the grid fills the cube from 0 to 1 there. It is seen, casts and receives as the
-        node does, whose layers do not matter.
+        A node of the scene that the volume is attached to and moves with, by its index or name: `box` or `matrix`
+        is in its space, without both the grid fills the cube from 0 to 1 there. It is seen, casts and receives as
+        the node does, whose layers do not matter.
     box:
         The box that the grid fills.
     matrix:
@@ -562,7 +563,7 @@ class VolumeOptions:
     castShadow:
         False = it dims the light of no surface and no volume, itself included. Default: true.
     receiveShadow:
-        False = it is lit as if no surface and no volume stood between it and the lights. Default: true.
+        False = no surface and no volume shades it. Default: true.
     """
 
     file: Optional[str] = None
@@ -765,7 +766,7 @@ class FrameSpec:
         How edges of surfaces are smoothed. Four samples a pixel take two to three times as long to draw on a CPU.
         none = one sample a pixel; msaa4x = four samples a pixel. Default: "msaa4x".
     views:
-        What to show, each view once. A reply of one picture shows the first. Each view adds a pass over the
+        The views to draw, each once. A reply of one picture shows the first. Each view adds a pass over the
         picture; `reference`, `error` and `edgeDistance` also trace rays. color = the shaded scene; depth = distance
         along the view axis: metres in EXR, near-to-far grey in PNG; normal = world-space shading normal: -1..1 in
         EXR, 0..1 in PNG; cascades = the shaded scene tinted by cascade: green, blue, purple, red and on; grey
@@ -775,11 +776,11 @@ class FrameSpec:
         texels of `debug.light` as a checkerboard; grey without tiles; texelDensity = most pixels that a texel of
         `debug.light` spans: a heat map (1/16 to 16), or numbers; 0 = no texel; blendWeight = weight of the next
         cascade of `debug.light`, 0..1; 0 = none; bias = metres by which a point is moved for `debug.light`: a heat
-        map (0.1 mm to 1 m), or numbers; 0 = no tile; casterIds = the node that throws the shadow of `debug.light`:
-        a color, or its index; grey, or -1, where none does; lightContribution = the scene lit by `debug.light`
-        alone: no other light, surroundings, emission or background; reference = the share of `debug.light` that
-        rays find at each pixel; 1 where nothing receives its shadow; error = false shadow of `debug.light` in red,
-        false light in blue; or shadow minus reference; edgeDistance = pixels from each edge of the shadow of
+        map (0.1 mm to 1 m), or numbers; 0 = no tile; casterIds = the node that casts the shadow of `debug.light`: a
+        color, or its index; grey, or -1, where none does; lightContribution = the scene lit by `debug.light` alone:
+        no other light, surroundings, emission or background; reference = the share of `debug.light` that rays find
+        at each pixel; 1 where nothing receives its shadow; error = false shadow of `debug.light` in red, false
+        light in blue; or shadow minus reference; edgeDistance = pixels from each edge of the shadow of
         `debug.light` to the nearest exact one: a heat map (0 to 16), or numbers; -1 = no edge; ids = the node that
         is seen: a color for each, or its index; black, or -1, where none is; instances = the copy of that node's
         mesh (EXT_mesh_gpu_instancing), 0 where there is but one; as `ids`; materials = the material that is seen,
@@ -895,7 +896,7 @@ class CarriedRange:
 
 @dataclass
 class Carried:
-    """What a frame of a sequence takes from the one before it. Pass it on as it came.
+    """What a frame of a sequence takes from the one before it. Pass it on unchanged.
 
     depthRanges:
         For each light with cascades the depths that they cover.
@@ -924,8 +925,8 @@ class SequenceRequest:
         except where the spec has `stabilization` or `depthRange` itself. False = each frame is drawn as if it were
         alone, with the tightest fit. Default: true.
     framesPerSecond:
-        How fast the frames of a video follow each other. Every other form tells it in its report, for whoever makes
-        a video of the frames; it changes no frame. Unit: frames per second. Default: 30.0.
+        Frame rate of a video. Every other form repeats it in its report, for making a video of the frames; it
+        changes no frame. Unit: frames per second. Default: 30.0.
     videoQuality:
         Of a video (`Accept: video/webm`): 1 = smallest file, 100 = closest to the frames. Each frame is as good as
         every other, whatever size that takes: 50 is less than half as large as the default, 90 two thirds larger,
