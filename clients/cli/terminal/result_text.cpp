@@ -95,7 +95,8 @@ std::string evaluationTable(const EvaluationReport& report) {
   const ReferenceReport& reference = report.reference;
   text += formatted("\nHeld against %d traced frame%s (%.0f ms, sorting the scene %.0f ms). ", reference.frames,
                     reference.frames == 1 ? "" : "s", reference.milliseconds, reference.buildMilliseconds);
-  return text + "Drawn by " + printable(report.renderer.renderer) + ".\n* = no other row is faster with as small an error." +
+  return text + "Drawn by " + printable(report.renderer.renderer) +
+         ".\n* = no other row is faster with as small an error." +
          (moved ? " Flips: of 1,000 points in one frame of the path.\n" : "\n");
 }
 
