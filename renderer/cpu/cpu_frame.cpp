@@ -91,8 +91,8 @@ Result<SeenDepths> CpuFrame::survey() {
   const int samples = gnomon::samplesOf(work_.frame.spec.antialiasing);
   survey_ = surveyScene(camera(), samples, work_.parts, std::exchange(shared_.storage[samples], {}));
   if (const DepthSpan& range = survey_.seen.all.range; !range.empty()) {
-    scene_.frame.depthRange.x = range.nearest;
-    scene_.frame.depthRange.y = range.farthest;
+    scene_.frame.nearest = range.nearest;
+    scene_.frame.farthest = range.farthest;
   }
   facts_.surveyedTriangles = survey_.triangles;
   endPass("survey", survey_.triangles);

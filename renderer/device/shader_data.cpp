@@ -20,7 +20,7 @@ static_assert(GNOMON_REGION_SIZE == kLightListSquare && GNOMON_REGION_SIZE % GNO
 // driver's by a test (shared_structs_gl_test.cpp).
 static_assert(sizeof(shared::LightData) == 9 * 16 && offsetof(shared::LightData, manualDepthBias) == 6 * 16);
 static_assert(sizeof(shared::TileData) == 10 * 16 && offsetof(shared::TileData, up) == 9 * 16);
-static_assert(sizeof(shared::FrameData) == 12 * 16 && offsetof(shared::FrameData, depthRange) == 11 * 16);
+static_assert(sizeof(shared::FrameData) == 12 * 16 && offsetof(shared::FrameData, ahead) == 11 * 16);
 static_assert(sizeof(shared::MaterialData) == 15 * 16);
 
 namespace {
@@ -173,28 +173,35 @@ shared::FrameData frameData(const ResolvedFrame& frame) {
   data.clipFromRelative = glm::mat4(clipFromView(view) * viewFromRelative(view));
   const glm::dmat4 clip = clipFromView(view);
   const Background& background = frame.spec.background;
-  data.forward = glm::vec4(view.forward, view.perspective ? 1.0 : 0.0);
-  data.middle = glm::vec4(wayToMiddle(view), 0.0);
-  data.right = glm::vec4(view.right * view.halfSize.x, 0.0);
-  data.up = glm::vec4(view.up * view.halfSize.y, 2.0 * view.halfSize.y / frame.spec.height);
-  data.lens = glm::vec4(clip[2][2], clip[3][2], 2.0 / frame.spec.width, 2.0 / frame.spec.height);
+  data.forward = glm::vec3(view.forward);
+  data.perspective = view.perspective ? 1 : 0;
+  data.middle = glm::vec3(wayToMiddle(view));
+  data.right = glm::vec3(view.right * view.halfSize.x);
+  data.up = glm::vec3(view.up * view.halfSize.y);
+  data.pixelHeight = static_cast<float>(2.0 * view.halfSize.y / frame.spec.height);
+  data.depthTerms = glm::vec2(clip[2][2], clip[3][2]);
+  data.pixelStep = glm::vec2(2.0 / frame.spec.width, 2.0 / frame.spec.height);
   data.background = glm::vec4(toVector(background.color), background.alpha);
-  data.ambient = glm::vec4(ambient[0] * intensity, ambient[1] * intensity, ambient[2] * intensity, 0.0);
-  data.depthRange = glm::vec4(0, 0, std::exp2(frame.spec.exposure), view.ahead);
+  data.ambient = glm::vec3(toVector(ambient) * intensity);
+  data.exposureScale = static_cast<float>(std::exp2(frame.spec.exposure));
+  data.ahead = static_cast<float>(view.ahead);
   return data;
 }
 
 shared::MaterialData materialData(const Material& material) {
-  shared::MaterialData data{
-      glm::vec4(glm::vec3(material.baseColorFactor), hasHoles(material) ? material.baseColorFactor.a : 1.0f),
-      glm::vec4(material.emissiveFactor, material.cutoff.value_or(0.0f)),
-      glm::vec4(material.metallicFactor, material.roughnessFactor, material.normalScale, material.occlusionStrength),
-      glm::vec4(0),
-      glm::vec4(material.transmission, 0, 0, 0),
-      {},
-      {}};
+  shared::MaterialData data{};
+  data.baseColorFactor =
+      glm::vec4(glm::vec3(material.baseColorFactor), hasHoles(material) ? material.baseColorFactor.a : 1.0f);
+  data.emissiveFactor = material.emissiveFactor;
+  data.alphaCutoff = material.cutoff.value_or(0.0f);
+  data.metallicFactor = material.metallicFactor;
+  data.roughnessFactor = material.roughnessFactor;
+  data.normalScale = material.normalScale;
+  data.occlusionStrength = material.occlusionStrength;
+  data.transmission = material.transmission;
   if (const auto& glossy = material.specularGlossiness) {
-    data.specularGlossiness = glm::vec4(glossy->specularFactor, glossy->glossinessFactor);
+    data.specularFactor = glossy->specularFactor;
+    data.glossinessFactor = glossy->glossinessFactor;
   }
   const auto uses = texturesOf(material);
   for (std::size_t i = 0; i < uses.size(); ++i) {
@@ -214,8 +221,8 @@ shared::InstanceData instanceData(const PlacedInstance& instance) {
     data.relativeFromLocal[row] = glm::vec4(place[row]);
     data.normalFromLocal[row] = glm::vec4(normals[row], 0.0);
   }
-  data.normalFromLocal[0].w = instance.group;
-  data.normalFromLocal[2].w = static_cast<float>(instance.node); // exact: there are no more than kLimits.maxNodes
+  data.receiverGroup() = instance.group;
+  data.node() = static_cast<float>(instance.node); // exact: there are no more than kLimits.maxNodes
   return data;
 }
 

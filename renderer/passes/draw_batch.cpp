@@ -98,7 +98,7 @@ gl::Buffer numberedInstances(const FrameGeometry& geometry, DrawList& list) {
   std::uint32_t number = 0;
   for (DrawRange& range : list.ranges) {
     shared::InstanceData instance = instanceData(geometry.instances[range.instance]);
-    instance.normalFromLocal[1].w = static_cast<float>(number); // exact: see kLimits.maxTriangles
+    instance.firstTriangle() = static_cast<float>(number); // exact: see kLimits.maxTriangles
     range.instance = static_cast<std::uint32_t>(instances.size());
     instances.push_back(instance);
     number += range.indexCount / 3;

@@ -56,8 +56,8 @@ Result<SeenDepths> GlFrame::survey() {
   if (!survey) return survey.problems();
   survey_ = std::move(*survey);
   if (const DepthSpan& range = survey_.seen.all.range; !range.empty()) {
-    data_.depthRange.x = range.nearest;
-    data_.depthRange.y = range.farthest;
+    data_.nearest = range.nearest;
+    data_.farthest = range.farthest;
     frame_.update(0, gl::bytesOfValue(data_));
   }
   return survey_.seen;

@@ -67,9 +67,9 @@ class CoverageTables {
     static_assert(MaskCoverage::kRow == GNOMON_COVERAGE_ROW);
     const auto [found, isNew] = firstRows_.try_emplace(&coverage, numbers_.size() / MaskCoverage::kRow);
     if (isNew) numbers_.insert(numbers_.end(), coverage.table().begin(), coverage.table().end());
-    material.passing.y = static_cast<float>(found->second);
-    material.passing.z = static_cast<float>(coverage.rows() - 1);
-    material.passing.w = coverage.mixesLevels() ? 1.0f : 0.0f;
+    material.coverageRow = static_cast<float>(found->second);
+    material.coverageLastRow = static_cast<float>(coverage.rows() - 1);
+    material.mixesLevels = coverage.mixesLevels() ? 1.0f : 0.0f;
   }
   const std::vector<float>& numbers() const { return numbers_; }
 

@@ -37,7 +37,7 @@ float leastAlpha(MaterialData material) {
   return (float(rank) + 0.5) / 16.0;
 }
 #else
-float leastAlpha(MaterialData material) { return material.emissiveFactor.w; }
+float leastAlpha(MaterialData material) { return material.alphaCutoff; }
 #endif
 
 #ifdef TEXTURE_TRANSFORM

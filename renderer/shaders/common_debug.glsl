@@ -41,14 +41,14 @@ DebugTexel debugTexel(Receiver receiver) {
 #if defined(VIEW_TEXEL_GRID) || defined(VIEW_TEXEL_DENSITY) || defined(TEXEL_EDGES)
 // Pixels that a point crosses on the picture for each metre that it moves along `way`.
 vec2 pixelsAlong(Receiver receiver, vec3 way) {
-  vec3 right = frame.right.xyz / dot(frame.right.xyz, frame.right.xyz);
-  vec3 up = frame.up.xyz / dot(frame.up.xyz, frame.up.xyz);
+  vec3 right = frame.right / dot(frame.right, frame.right);
+  vec3 up = frame.up / dot(frame.up, frame.up);
   vec2 moved = vec2(dot(way, right), dot(way, up));
-  if (frame.forward.w > 0.0) {
+  if (frame.perspective != 0u) {
     vec2 place = vec2(dot(receiver.relative, right), dot(receiver.relative, up)) / receiver.viewDepth;
-    moved = (moved - place * dot(way, frame.forward.xyz)) / receiver.viewDepth;
+    moved = (moved - place * dot(way, frame.forward)) / receiver.viewDepth;
   }
-  return moved / frame.lens.zw;
+  return moved / frame.pixelStep;
 }
 
 // A texel's two edges as they lie on the surface's plane, seen on the picture: pixels, times `scale`.
@@ -186,7 +186,7 @@ vec3 nodeColor(int node) {
 vec4 debugData(Receiver receiver) {
   int node = casterNode(receiver);
 #ifdef ENCODED
-  vec3 toEye = frame.forward.w > 0.0 ? -normalize(receiver.relative) : -frame.forward.xyz;
+  vec3 toEye = frame.perspective != 0u ? -normalize(receiver.relative) : -frame.forward;
   vec3 lit = vec3(0.25 + 0.35 * abs(dot(receiver.normal, toEye)));
   return vec4(node < 0 ? lit : nodeColor(node), 1.0);
 #else

@@ -4,7 +4,7 @@ layout(std430, binding = GNOMON_LIGHT_LIST_BUFFER) readonly buffer LightListBuff
 
 // First place and the one after the last.
 uvec2 lightList() {
-  vec2 frameSize = 2.0 / frame.lens.zw;
+  vec2 frameSize = 2.0 / frame.pixelStep;
   uvec2 region = uvec2(gl_FragCoord.x, frameSize.y - gl_FragCoord.y) / uint(GNOMON_REGION_SIZE); // rows count from the top
   uint columns = (uint(frameSize.x + 0.5) + uint(GNOMON_REGION_SIZE) - 1u) / uint(GNOMON_REGION_SIZE);
   uint at = 2u * (region.y * columns + region.x);

@@ -21,7 +21,7 @@ float hashOfTexel(vec2 place, float halvings) {
 
 // The share of places whose alpha is less than `number`, in a row of the material's table.
 float shareBelow(MaterialData material, float row, int number) {
-  int first = (int(material.passing.y) + int(row)) * GNOMON_COVERAGE_ROW + number;
+  int first = (int(material.coverageRow) + int(row)) * GNOMON_COVERAGE_ROW + number;
   float share = fract(row);
   float one = coverage[first];
   return share > 0.0 ? mix(one, coverage[first + GNOMON_COVERAGE_ROW], share) : one;
@@ -30,16 +30,16 @@ float shareBelow(MaterialData material, float row, int number) {
 // `texel`: alpha as it was read at uv; right, up: how uv moves from pixel to pixel; factor: of the material and its
 // vertices.
 bool isFilled(MaterialData material, float factor, float texel, vec2 uv, vec2 right, vec2 up) {
-  float cutoff = material.emissiveFactor.w;
+  float cutoff = material.alphaCutoff;
   vec2 size = vec2(textureSize(baseColorTexture, 0));
   float squared = max(dot(right * size, right * size), dot(up * size, up * size));
   float halvings = 0.5 * log2(max(squared, 1e-20));
-  float read = material.passing.w > 0.0 ? halvings : ceil(halvings - 0.5);
+  float read = material.mixesLevels > 0.0 ? halvings : ceil(halvings - 0.5);
   int alpha = int(texel * 255.0 + 0.5);
-  if (material.passing.z == 0.0 || !(read > 0.0) || alpha == 0 || alpha == 255) return texel * factor >= cutoff;
+  if (material.coverageLastRow == 0.0 || !(read > 0.0) || alpha == 0 || alpha == 255) return texel * factor >= cutoff;
   float least = ceil(255.0 * cutoff / factor - 1e-3);
   if (!(least <= 255.0)) return false; // nor where the factor is 0
-  float row = min(2.0 * read, material.passing.z);
+  float row = min(2.0 * read, material.coverageLastRow);
   float low = shareBelow(material, row, alpha);
   float rank = low + hashOfTexel(uv * size, halvings) * (shareBelow(material, row, alpha + 1) - low);
   return rank >= shareBelow(material, 0.0, int(max(least, 0.0)));

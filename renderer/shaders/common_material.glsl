@@ -46,7 +46,7 @@ vec3 shadingNormal(MaterialData material, vec3 face) {
 #endif
 #ifdef NORMAL_TEXTURE
   vec3 texel = NORMAL_TEXEL(normalTexture).xyz * 2.0 - 1.0;
-  texel.xy *= material.surface.z;
+  texel.xy *= material.normalScale;
 #ifdef TANGENTS
   n = bentByTangent(normalize(n), surface.tangent.xyz, surface.tangent.w, texel);
 #else
@@ -60,7 +60,7 @@ vec3 shadingNormal(MaterialData material, vec3 face) {
 #ifdef SPECULAR_GLOSSINESS
 // Turns the diffuse color into a base color; gives metal and roughness.
 vec2 fromSpecularGlossiness(MaterialData material, inout vec3 color) {
-  vec4 specular = material.specularGlossiness;
+  vec4 specular = vec4(material.specularFactor, material.glossinessFactor);
 #ifdef METALLIC_ROUGHNESS_TEXTURE
   specular *= METALLIC_ROUGHNESS_TEXEL(metallicRoughnessTexture);
 #endif
@@ -71,7 +71,7 @@ vec2 fromSpecularGlossiness(MaterialData material, inout vec3 color) {
 #endif
 
 vec2 metallicRoughnessOf(MaterialData material) {
-  vec2 value = material.surface.xy;
+  vec2 value = vec2(material.metallicFactor, material.roughnessFactor);
 #ifdef METALLIC_ROUGHNESS_TEXTURE
   value *= METALLIC_ROUGHNESS_TEXEL(metallicRoughnessTexture).bg;
 #endif
@@ -80,14 +80,14 @@ vec2 metallicRoughnessOf(MaterialData material) {
 
 float occlusionOf(MaterialData material) {
 #ifdef OCCLUSION_TEXTURE
-  return mix(1.0, OCCLUSION_TEXEL(occlusionTexture).r, material.surface.w);
+  return mix(1.0, OCCLUSION_TEXEL(occlusionTexture).r, material.occlusionStrength);
 #else
   return 1.0;
 #endif
 }
 
 vec3 emissionOf(MaterialData material) {
-  vec3 emission = material.emissiveFactor.rgb;
+  vec3 emission = material.emissiveFactor;
 #ifdef EMISSIVE_TEXTURE
   emission *= EMISSIVE_TEXEL(emissiveTexture).rgb;
 #endif

@@ -34,12 +34,13 @@ Sample sampleOf(ivec2 pixel, int index) {
   float depth = texelFetch(surfaceDepths, pixel, index).r;
   s.hit = depth > 0.0;
   s.bits = texelFetch(surfaceBits, pixel, index);
-  vec2 ndc = (vec2(pixel) + samplePositions[index]) * frame.lens.zw - 1.0;
+  vec2 ndc = (vec2(pixel) + samplePositions[index]) * frame.pixelStep - 1.0;
   // From depth, reversed, to metres: the inverse of the projection's two terms (renderer/core/camera_view.cpp).
-  bool perspective = frame.forward.w > 0.0;
-  s.viewDepth = perspective ? frame.lens.y / (depth + frame.lens.x) : (frame.lens.y - depth) / frame.lens.x;
-  vec3 across = frame.right.xyz * ndc.x + frame.up.xyz * ndc.y;
-  s.relative = frame.middle.xyz * s.viewDepth + across * (perspective ? s.viewDepth : 1.0);
+  bool perspective = frame.perspective != 0u;
+  vec2 terms = frame.depthTerms;
+  s.viewDepth = perspective ? terms.y / (depth + terms.x) : (terms.y - depth) / terms.x;
+  vec3 across = frame.right * ndc.x + frame.up * ndc.y;
+  s.relative = frame.middle * s.viewDepth + across * (perspective ? s.viewDepth : 1.0);
   return s;
 }
 
@@ -75,7 +76,7 @@ bool alike(Sample a, Sample b) {
                           unpackSnorm2x16(a.bits.y) - unpackSnorm2x16(b.bits.y)));
   vec3 color = abs(rootColor(a.bits.z) - rootColor(b.bits.z));
   vec3 rest = abs(unpackUnorm4x8(a.bits.w).xyz - unpackUnorm4x8(b.bits.w).xyz);
-  float pixel = frame.up.w * (frame.forward.w > 0.0 ? a.viewDepth : 1.0);
+  float pixel = frame.pixelHeight * (frame.perspective != 0u ? a.viewDepth : 1.0);
   float apart = abs(dot(fromOctahedral(unpackSnorm2x16(a.bits.x)), a.relative - b.relative));
   return all(lessThan(normals, vec4(kNormalStep))) && all(lessThan(color, vec3(0.01))) &&
          all(lessThan(rest, vec3(0.02))) && apart < 0.5 * pixel;

@@ -24,7 +24,7 @@ void main() {
   ivec2 place = ivec2(gl_FragCoord.xy);
   ProbeData probe = probes[place.y * GNOMON_PROBE_COLUMNS + place.x];
   vec4 clip = frame.clipFromRelative * vec4(probe.relative.xyz, 1.0);
-  shadedPixel = floor((clip.xy / clip.w + 1.0) / frame.lens.zw) + 0.5;
+  shadedPixel = floor((clip.xy / clip.w + 1.0) / frame.pixelStep) + 0.5;
   vec3 toLight;
   irradiance(lights[debugLight], probe.relative.xyz, toLight);
   visibility = shadowVisibility(debugLight, receiverOf(probe), toLight, true);

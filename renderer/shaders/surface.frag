@@ -85,11 +85,11 @@ void main() {
   vec2 up = BASE_COLOR_STEP(dFdy);
   if (!isFilled(material, factor, BASE_COLOR_TEXEL(baseColorTexture).a, BASE_COLOR_PLACE, right, up)) discard;
 #else
-  if (color.a < material.emissiveFactor.w) discard;
+  if (color.a < material.alphaCutoff) discard;
 #endif
 #endif
   // The pixel's centre: at an edge it may lie just off the surface, in its plane.
-  vec3 toEye = frame.forward.w > 0.0 ? -surface.relative : -frame.forward.xyz;
+  vec3 toEye = frame.perspective != 0u ? -surface.relative : -frame.forward;
   vec3 face = faceNormal(toEye);
 #ifdef SPECULAR_GLOSSINESS
   vec2 metallicRoughness = fromSpecularGlossiness(material, color.rgb);
@@ -103,8 +103,8 @@ void main() {
   glow = vec4(color.rgb, 1.0);
 #elif defined(TRANSMISSION)
   // The diffuse part gives way to the surroundings behind, unshadowed and unbent.
-  float passing = material.passing.x * (1.0 - metallicRoughness.x);
-  vec3 behind = frame.ambient.rgb * radianceAround(-normalize(toEye).y, metallicRoughness.y);
+  float passing = material.transmission * (1.0 - metallicRoughness.x);
+  vec3 behind = frame.ambient * radianceAround(-normalize(toEye).y, metallicRoughness.y);
   glow.rgb += passing * color.rgb * behind;
   color.rgb *= mix(1.0, metallicRoughness.x, passing);
 #endif

@@ -42,7 +42,7 @@ vec3 radianceToEye(SurfacePoint s, Receiver receiver, vec4 emission, float occlu
   return isUnlit(emission) || debugLight < 0 ? vec3(0.0) : radianceFrom(debugLight, s, receiver);
 #else
   if (isUnlit(emission)) return emission.rgb;
-  vec3 sum = emission.rgb + frame.ambient.rgb * ambientReflected(s) * occlusion;
+  vec3 sum = emission.rgb + frame.ambient * ambientReflected(s) * occlusion;
   uvec2 list = lightList();
   for (uint k = list.x; k < list.y; ++k) sum += radianceFrom(listedLight(k), s, receiver);
   return sum;
@@ -83,7 +83,7 @@ vec4 shownColor(SeenLight seen) {
   vec4 before = volumesHere();
   seen = seenBehind(seen, before.rgb, before.a);
 #endif
-  return vec4(shownColor(seen, frame.depthRange.z, TONE), seen.alpha);
+  return vec4(shownColor(seen, frame.exposureScale, TONE), seen.alpha);
 }
 
 SeenLight backgroundLight() {
@@ -95,7 +95,7 @@ SeenLight backgroundLight() {
 }
 
 SeenLight surfaceLight(Surface surface, Sample seen, Receiver receiver) {
-  vec3 toEye = frame.forward.w > 0.0 ? -normalize(seen.relative) : -frame.forward.xyz;
+  vec3 toEye = frame.perspective != 0u ? -normalize(seen.relative) : -frame.forward;
   SurfacePoint s = surfacePoint(surface.baseColor, surface.metallic, surface.roughness, surface.normal, toEye);
   vec4 emission = emissionAt(seen.index);
   vec3 radiance = radianceToEye(s, receiver, emission, surface.occlusion);
@@ -158,10 +158,10 @@ vec4 background() {
 vec4 data(Sample seen) {
 #if defined(VIEW_DEPTH)
 #ifdef ENCODED
-  float span = max(frame.depthRange.y - frame.depthRange.x, 1e-6);
-  return vec4(vec3(1.0 - 0.9 * clamp((seen.viewDepth - frame.depthRange.x) / span, 0.0, 1.0)), 1.0);
+  float span = max(frame.farthest - frame.nearest, 1e-6);
+  return vec4(vec3(1.0 - 0.9 * clamp((seen.viewDepth - frame.nearest) / span, 0.0, 1.0)), 1.0);
 #else
-  return vec4(seen.viewDepth + frame.depthRange.w);
+  return vec4(seen.viewDepth + frame.ahead);
 #endif
 #elif defined(VIEW_NORMAL)
   vec3 n = unpackedSurface(seen.bits).normal;

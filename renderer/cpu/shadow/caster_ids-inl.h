@@ -71,8 +71,7 @@ HWY_INLINE Float3 nodeColor(const Int& node) {
 inline DebugValue casterValue(const DebugLight& debug, const Receiver& receiver, bool encoded) {
   const Int nodes = casterNodes(debug, receiver);
   if (!encoded) return number(toFloat(nodes));
-  const glm::vec4 forward = debug.frame.forward;
-  const Float3 toEye = forward.w > 0.0f ? -normalize(receiver.relative) : Float3(-glm::vec3(forward));
+  const Float3 toEye = debug.frame.perspective != 0u ? -normalize(receiver.relative) : Float3(-debug.frame.forward);
   const Float3 lit(0.25f + 0.35f * abs(dot(receiver.normal, toEye)));
   return {select(nodes < Int(0), lit, nodeColor(nodes)), 1.0f};
 }

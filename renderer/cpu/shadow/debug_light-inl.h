@@ -73,11 +73,11 @@ HWY_INLINE Float2 pixelsAlong(const shared::FrameData& frame, const Receiver& re
   right /= glm::dot(right, right);
   up /= glm::dot(up, up);
   Float2 moved(along(right, way), along(up, way));
-  if (frame.forward.w > 0.0f) {
+  if (frame.perspective != 0u) {
     const Float2 place = Float2(along(right, receiver.relative), along(up, receiver.relative)) / receiver.viewDepth;
-    moved = (moved - place * along(glm::vec3(frame.forward), way)) / receiver.viewDepth;
+    moved = (moved - place * along(frame.forward, way)) / receiver.viewDepth;
   }
-  return {moved.x / frame.lens.z, moved.y / frame.lens.w};
+  return {moved.x / frame.pixelStep.x, moved.y / frame.pixelStep.y};
 }
 
 /// Texels' two edges as they lie on the surface's plane, seen on the picture: pixels, times `scale`.

@@ -16,7 +16,7 @@ namespace gnomon::cpu::HWY_NAMESPACE {
 /// The middle of the pixel of the picture that shows a point.
 inline glm::vec2 shadedPixel(const shared::FrameData& frame, const glm::vec3& relative) {
   const glm::vec4 clip = frame.clipFromRelative * glm::vec4(relative, 1.0f);
-  return glm::floor((glm::vec2(clip) / clip.w + 1.0f) / glm::vec2(frame.lens.z, frame.lens.w)) + 0.5f;
+  return glm::floor((glm::vec2(clip) / clip.w + 1.0f) / frame.pixelStep) + 0.5f;
 }
 
 inline Receiver receiverOf(const shared::FrameData& frame, std::span<const ProbePoint> points) {

@@ -22,7 +22,7 @@ namespace gnomon::cpu::HWY_NAMESPACE {
 unsigned markParts(const ReadQuery& query, std::span<const std::uint32_t> lights, int x, int y,
                    std::span<TexelMarks> marks) {
   const auto alike = [&](std::uint32_t light) { return readsAlike(query.maps.lights[light]); };
-  if (!(query.scene.frame.forward.w > 0.0f) || !std::all_of(lights.begin(), lights.end(), alike)) return 0;
+  if (query.scene.frame.perspective == 0u || !std::all_of(lights.begin(), lights.end(), alike)) return 0;
   const EvenParts parts = evenParts(query.surfaces, x, y);
   return parts.empty | markCorners(query, lights, parts, marks);
 }

@@ -18,10 +18,10 @@ HWY_INLINE DebugLight debugLightOf(const ShowJob& job) {
 
 HWY_INLINE DebugValue depthValue(const ShowJob& job, const Fragments& fragments) {
   const Float viewDepth = ownDepths(job.scene, fragments);
-  const glm::vec4& range = job.scene.frame.depthRange;
-  if (!job.encoded) return number(viewDepth + range.w);
-  const float span = std::max(range.y - range.x, 1e-6f);
-  return {Float3(1.0f - 0.9f * clamp((viewDepth - range.x) / span, 0.0f, 1.0f)), 1.0f};
+  const shared::FrameData& frame = job.scene.frame;
+  if (!job.encoded) return number(viewDepth + frame.ahead);
+  const float span = std::max(frame.farthest - frame.nearest, 1e-6f);
+  return {Float3(1.0f - 0.9f * clamp((viewDepth - frame.nearest) / span, 0.0f, 1.0f)), 1.0f};
 }
 
 HWY_INLINE DebugValue shadowValue(const ShowJob& job, const Receiver& receiver) {

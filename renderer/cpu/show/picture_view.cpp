@@ -40,7 +40,7 @@ HWY_INLINE ShownColor shownColor(const ShowJob& job, SeenLight seen, const Int& 
     const Float3 radiance(gather(values, at), gather(values, at + Int(1)), gather(values, at + Int(2)));
     seen = seenBehind(seen, radiance, gather(values, at + Int(3)));
   }
-  return {shownColor(seen, job.scene.frame.depthRange.z, job.tone), seen.alpha};
+  return {shownColor(seen, job.scene.frame.exposureScale, job.tone), seen.alpha};
 }
 
 /// Where no surface is.

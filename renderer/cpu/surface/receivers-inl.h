@@ -25,7 +25,7 @@ inline HWY_NOINLINE Receiver instanceReceivers(const FrameScene& scene, const Of
   receiver.shown = fragments.shown;
   receiver.relative = sight.origin + sight.way * meeting.depth;
   receiver.viewDepth = asSurveyed(scene.frame, meeting.depth);
-  receiver.groupBit = Int(1 << static_cast<int>(placed.normalFromLocal[0].w));
+  receiver.groupBit = Int(1 << static_cast<int>(placed.receiverGroup()));
   receiver.place = fragments.place;
   receiver.samples = 1;
   receiver.triangle = fragments.triangle;
@@ -62,7 +62,7 @@ HWY_INLINE Receiver receiversOf(const FrameScene& scene, const Fragments& fragme
 /// View depths of what is shown, metres: the surfaces' own, whatever the survey's samples saw of them.
 HWY_INLINE Float ownDepths(const FrameScene& scene, const Fragments& fragments) {
   const Sight sight = sightThrough(scene.frame, fragments.place);
-  const Float3 forward{glm::vec3(scene.frame.forward)};
+  const Float3 forward{scene.frame.forward};
   Float depths = 0.0f;
   OfInstance own;
   for (unsigned left = bitsOf(fragments.shown); left != 0; left &= ~bitsOf(own.lanes)) {

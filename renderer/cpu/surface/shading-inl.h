@@ -60,7 +60,7 @@ HWY_INLINE Float3 radianceToEye(const FrameScene& scene, const Lighting& lightin
   const Mask lit = andNot(surface.unlit, fragments.shown);
   if (none(lit)) return surface.emission;
   const SurfacePoint point = pointOf(surface);
-  Float3 sum = surface.emission + Float3(glm::vec3(scene.frame.ambient)) * ambientReflected(point) * surface.occlusion;
+  Float3 sum = surface.emission + Float3(scene.frame.ambient) * ambientReflected(point) * surface.occlusion;
   if (lighting.lists.empty()) {
     for (std::uint32_t k = 0; k < lighting.lights.size(); ++k) {
       sum += radianceFrom(lighting, k, point, surface.receiver, lit, visibility);

@@ -24,10 +24,11 @@ struct Sight {
 HWY_INLINE Sight sightThrough(const shared::FrameData& frame, const Float2& place) {
   Sight sight;
   const glm::vec3 right(frame.right), up(frame.up), middle(frame.middle);
-  sight.spreads = frame.forward.w > 0.0f;
-  sight.stepX = right * frame.lens.z;
-  sight.stepY = up * frame.lens.w;
-  const Float3 across = Float3(right) * (place.x * frame.lens.z - 1.0f) + Float3(up) * (place.y * frame.lens.w - 1.0f);
+  sight.spreads = frame.perspective != 0u;
+  sight.stepX = right * frame.pixelStep.x;
+  sight.stepY = up * frame.pixelStep.y;
+  const Float3 across =
+      Float3(right) * (place.x * frame.pixelStep.x - 1.0f) + Float3(up) * (place.y * frame.pixelStep.y - 1.0f);
   sight.origin = sight.spreads ? Float3(0.0f) : across;
   sight.way = sight.spreads ? Float3(middle) + across : Float3(middle);
   return sight;
@@ -35,14 +36,13 @@ HWY_INLINE Sight sightThrough(const shared::FrameData& frame, const Float2& plac
 
 /// From what is seen to the eye, unit length.
 HWY_INLINE Float3 towardsEye(const Sight& sight, const shared::FrameData& frame) {
-  return sight.spreads ? normalize(-sight.way) : Float3(-glm::vec3(frame.forward));
+  return sight.spreads ? normalize(-sight.way) : Float3(-frame.forward);
 }
 
 /// The view depth of what the survey saw. Its corners lie on a grid, so that a line of sight may miss a triangle seen
 /// edge-on, and meet its plane far off; but what is shown lies in the range that tiles are fitted to.
 HWY_INLINE Float asSurveyed(const shared::FrameData& frame, const Float& viewDepth) {
-  const glm::vec4& range = frame.depthRange;
-  return range.x < range.y ? clamp(viewDepth, range.x, range.y) : viewDepth;
+  return frame.nearest < frame.farthest ? clamp(viewDepth, frame.nearest, frame.farthest) : viewDepth;
 }
 
 /// A triangle: a corner, and from there to the other two. `V`: Float3, or glm::vec3 of one that all lanes have.

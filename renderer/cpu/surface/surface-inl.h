@@ -95,7 +95,7 @@ class InstanceSurface {
     s.receiver.relative = sight.origin + sight.way * meeting.depth;
     s.receiver.viewDepth = asSurveyed(frame_, meeting.depth);
     s.receiver.weights = {meeting.u, meeting.v};
-    s.receiver.groupBit = Int(1 << static_cast<int>(placed_.normalFromLocal[0].w));
+    s.receiver.groupBit = Int(1 << static_cast<int>(placed_.receiverGroup()));
     s.receiver.place = fragments.place;
     s.receiver.triangle = fragments.triangle;
     s.toEye = towardsEye(sight, frame_);
@@ -151,8 +151,8 @@ class InstanceSurface {
 
   HWY_INLINE Float3 bent(const Float3& n, const TextureUse& use) {
     Float3 direction = texel<kColor>(use, GNOMON_NORMAL_UNIT, false).rgb * 2.0f - Float3(1.0f);
-    direction.x *= data_.surface.z;
-    direction.y *= data_.surface.z;
+    direction.x *= data_.normalScale;
+    direction.y *= data_.normalScale;
     if (tangents_) {
       const Corners::Fields tangent = corners_.fields(offsetof(VertexAttributes, tangent));
       return bentByTangent(n, turned(placed_.relativeFromLocal, tangent.triple(meeting_)), tangent.of[3].at(meeting_),
@@ -173,8 +173,8 @@ class InstanceSurface {
 
   /// Turns the diffuse color into a base color.
   HWY_INLINE void addGlossiness(Float3& color, Float& metallic, Float& roughness) {
-    Float3 specular{glm::vec3(data_.specularGlossiness)};
-    Float glossiness(data_.specularGlossiness.w);
+    Float3 specular{data_.specularFactor};
+    Float glossiness(data_.glossinessFactor);
     if (material_.metallicRoughness) {
       const Texel factor = texel<kAllChannels>(*material_.metallicRoughness, GNOMON_METALLIC_ROUGHNESS_UNIT, true);
       specular = specular * factor.rgb;
@@ -187,7 +187,7 @@ class InstanceSurface {
 
   HWY_INLINE void addMaterial(Surface& s) {
     Float3 color = ownColor();
-    Float metallic(data_.surface.x), roughness(data_.surface.y);
+    Float metallic(data_.metallicFactor), roughness(data_.roughnessFactor);
     if (material_.specularGlossiness) {
       addGlossiness(color, metallic, roughness);
     } else if (material_.metallicRoughness) {
@@ -195,7 +195,7 @@ class InstanceSurface {
       metallic *= factor.rgb.z;
       roughness *= factor.rgb.y;
     }
-    s.emission = Float3(glm::vec3(data_.emissiveFactor));
+    s.emission = Float3(data_.emissiveFactor);
     if (material_.emissive)
       s.emission = s.emission * texel<kColor>(*material_.emissive, GNOMON_EMISSIVE_UNIT, true).rgb;
     s.unlit = maskOf(material_.unlit ? 0xffffu : 0u);
@@ -203,8 +203,8 @@ class InstanceSurface {
       s.emission = color;
     } else if (material_.transmission > 0) {
       // The diffuse part gives way to the surroundings behind, unshadowed and unbent.
-      const Float passing = data_.passing.x * (1.0f - metallic);
-      const Float3 behind = Float3(glm::vec3(frame_.ambient)) * radianceAround(-s.toEye.y, roughness);
+      const Float passing = data_.transmission * (1.0f - metallic);
+      const Float3 behind = Float3(frame_.ambient) * radianceAround(-s.toEye.y, roughness);
       s.emission += color * passing * behind;
       color *= mix(Float(1.0f), metallic, passing);
     }
@@ -214,7 +214,7 @@ class InstanceSurface {
     s.occlusion = 1.0f;
     if (material_.occlusion) {
       const Float open = texel<kRed>(*material_.occlusion, GNOMON_OCCLUSION_UNIT, false).rgb.x;
-      s.occlusion = clamp(mix(Float(1.0f), open, data_.surface.w), 0.0f, 1.0f);
+      s.occlusion = clamp(mix(Float(1.0f), open, data_.occlusionStrength), 0.0f, 1.0f);
     }
   }
 

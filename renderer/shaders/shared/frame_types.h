@@ -57,27 +57,26 @@ using glm::vec4;
 #define GNOMON_DEBUG_LIGHT 16
 #define GNOMON_ATLAS_SIZE 17
 
-// Texture units.
+// Texture units, of which a pass has 16. Of passes that draw surfaces:
 #define GNOMON_BASE_COLOR_UNIT 0
 #define GNOMON_METALLIC_ROUGHNESS_UNIT 1
 #define GNOMON_NORMAL_UNIT 2
 #define GNOMON_OCCLUSION_UNIT 3
 #define GNOMON_EMISSIVE_UNIT 4
-#define GNOMON_ATLAS_UNIT 5
-#define GNOMON_DEPTH_UNIT 6
-#define GNOMON_SURFACE_UNIT 7
-#define GNOMON_EMISSION_UNIT 8
-#define GNOMON_MOMENTS_UNIT 9
-#define GNOMON_VISIBILITY_UNIT 10
-#define GNOMON_CASTER_NODE_UNIT 12
-#define GNOMON_CASTER_DEPTH_UNIT 13
-#define GNOMON_VOLUMES_UNIT 14
-#define GNOMON_BAKED_UNIT 15
-#define GNOMON_SMOOTH_UNIT 0 // of views, which read no material
-
-// Light maps that surfaces are looked up in as they are drawn: as many units, of that pass alone.
-#define GNOMON_LIGHT_MAPS 4
-#define GNOMON_LIGHT_MAP_UNIT 5
+#define GNOMON_LIGHT_MAP_UNIT 5 // and the next ones
+#define GNOMON_LIGHT_MAPS 4     // that surfaces are looked up in as they are drawn
+// Of passes over what was drawn:
+#define GNOMON_SURFACE_UNIT 0
+#define GNOMON_DEPTH_UNIT 1
+#define GNOMON_EMISSION_UNIT 2
+#define GNOMON_SMOOTH_UNIT 3
+#define GNOMON_BAKED_UNIT 4
+#define GNOMON_VISIBILITY_UNIT 5
+#define GNOMON_ATLAS_UNIT 6
+#define GNOMON_MOMENTS_UNIT 7
+#define GNOMON_VOLUMES_UNIT 8
+#define GNOMON_CASTER_NODE_UNIT 9
+#define GNOMON_CASTER_DEPTH_UNIT 10
 
 // Pixels along a side of a survey block (shadow_plan.h).
 #define GNOMON_BLOCK_SIZE 8
@@ -117,31 +116,52 @@ using glm::vec4;
 
 struct FrameData {
   mat4 clipFromRelative;
-  vec4 forward;    // xyz: the view axis; w: 1 perspective, 0 orthographic
-  vec4 middle;     // xyz: the way through the picture's middle, one metre of view depth long
-  vec4 right;      // xyz: from the picture's middle to its right edge, at 1 m (perspective) or at any depth
-  vec4 up;         // xyz: the same to its upper edge; w: a pixel's height there, metres
-  vec4 lens;       // xy: terms 2 2 and 3 2 of the projection; zw: 2 / width, 2 / height
-  vec4 background; // where there is no surface, as it shows
-  vec4 ambient;    // rgb: radiance of the surroundings
-  vec4 depthRange; // x nearest, y farthest surface (metres, view depth); z: 2^exposure; w: metres to
-                   // be added to a depth that is told, as the eye is moved ahead
+  vec3 forward;        // the view axis
+  uint perspective;    // 0 = orthographic
+  vec3 middle;         // the way through the picture's middle, one metre of view depth long
+  float nearest;       // surface, metres of view depth
+  vec3 right;          // from the picture's middle to its right edge, at 1 m (perspective) or at any depth
+  float farthest;      // surface, metres of view depth
+  vec3 up;             // the same as `right` to the upper edge
+  float pixelHeight;   // there, metres
+  vec2 depthTerms;     // terms 2 2 and 3 2 of the projection
+  vec2 pixelStep;      // 2 / width, 2 / height
+  vec4 background;     // where there is no surface, as it shows
+  vec3 ambient;        // radiance of the surroundings
+  float exposureScale; // 2^exposure
+  float ahead;         // metres to be added to a depth that is told, as the eye is moved ahead
+  float padding1, padding2, padding3;
 };
 
 // Read as vertex attributes, one an instance: llvmpipe fetches those far faster than a storage buffer.
 struct InstanceData {
   vec4 relativeFromLocal[3]; // rows of the affine matrix
-  vec4 normalFromLocal[3]; // rows; xyz; w: the receiver group; the number of a draw's first triangle; the node's index
+  vec4 normalFromLocal[3];   // rows, xyz; w: as named below
+#ifdef __cplusplus
+  // The number of a draw's first triangle; the index of the node.
+  float& firstTriangle() { return normalFromLocal[1].w; }
+  float& node() { return normalFromLocal[2].w; }
+  float& receiverGroup() { return normalFromLocal[0].w; }
+  float receiverGroup() const { return normalFromLocal[0].w; }
+#endif
 };
 
 struct MaterialData {
   vec4 baseColorFactor;
-  vec4 emissiveFactor;     // rgb; w: alpha cutoff
-  vec4 surface;            // metallic, roughness, normal scale, occlusion strength
-  vec4 specularGlossiness; // rgb: specular factor; w: glossiness factor
-  vec4 passing;            // x: transmission; yzw: as mask_coverage.h says
-  vec4 uvAxes[5];          // of each texture unit: columns of the matrix from a vertex's coordinates
-  vec4 uvOffsets[5];       // xy: added to that
+  vec3 emissiveFactor;
+  float alphaCutoff;
+  float metallicFactor;
+  float roughnessFactor;
+  float normalScale;
+  float occlusionStrength;
+  vec3 specularFactor;
+  float glossinessFactor;
+  float transmission;
+  float coverageRow;     // the first of its table (mask_coverage.h)
+  float coverageLastRow; // the number of the last one from there on; 0 = it has none
+  float mixesLevels;     // 1 = the table's levels are mixed
+  vec4 uvAxes[5];        // of each texture unit: columns of the matrix from a vertex's coordinates
+  vec4 uvOffsets[5];     // xy: added to that
 };
 
 struct LightData {

@@ -1,6 +1,5 @@
 // Where the tables of MaskCoverage (renderer/scene/mask_coverage.h) lie for shaders, all behind one another. A
-// material's `passing` says which is its own: y is the first row, z the number of the last one from there on, or 0
-// where it has none; w is 1 where its levels are mixed.
+// material says which rows are its own.
 #ifdef __cplusplus
 #pragma once
 #endif

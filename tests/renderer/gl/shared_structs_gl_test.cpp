@@ -23,17 +23,28 @@ struct Member {
 const std::vector<Member> kFrame{
     MEMBER(FrameData, clipFromRelative),
     MEMBER(FrameData, forward),
+    MEMBER(FrameData, perspective),
     MEMBER(FrameData, middle),
+    MEMBER(FrameData, nearest),
     MEMBER(FrameData, right),
+    MEMBER(FrameData, farthest),
     MEMBER(FrameData, up),
-    MEMBER(FrameData, lens),
+    MEMBER(FrameData, pixelHeight),
+    MEMBER(FrameData, depthTerms),
+    MEMBER(FrameData, pixelStep),
     MEMBER(FrameData, background),
     MEMBER(FrameData, ambient),
-    MEMBER(FrameData, depthRange),
+    MEMBER(FrameData, exposureScale),
+    MEMBER(FrameData, ahead),
 };
 const std::vector<Member> kMaterial{
-    MEMBER(MaterialData, baseColorFactor),    MEMBER(MaterialData, emissiveFactor), MEMBER(MaterialData, surface),
-    MEMBER(MaterialData, specularGlossiness), MEMBER(MaterialData, passing),        ARRAY(MaterialData, uvAxes),
+    MEMBER(MaterialData, baseColorFactor),   MEMBER(MaterialData, emissiveFactor),
+    MEMBER(MaterialData, alphaCutoff),       MEMBER(MaterialData, metallicFactor),
+    MEMBER(MaterialData, roughnessFactor),   MEMBER(MaterialData, normalScale),
+    MEMBER(MaterialData, occlusionStrength), MEMBER(MaterialData, specularFactor),
+    MEMBER(MaterialData, glossinessFactor),  MEMBER(MaterialData, transmission),
+    MEMBER(MaterialData, coverageRow),       MEMBER(MaterialData, coverageLastRow),
+    MEMBER(MaterialData, mixesLevels),       ARRAY(MaterialData, uvAxes),
     ARRAY(MaterialData, uvOffsets),
 };
 const std::vector<Member> kLight{

@@ -14,10 +14,11 @@ namespace {
 shared::FrameData frameAlong(const glm::vec3& forward, bool perspective) {
   shared::FrameData frame{};
   const glm::vec3 right = glm::normalize(glm::cross(forward, glm::vec3(0.1f, 1, 0.2f)));
-  frame.forward = glm::vec4(forward, perspective ? 1 : 0);
-  frame.right = glm::vec4(0.8f * right, 0);
-  frame.up = glm::vec4(0.45f * glm::cross(right, forward), 0.001f);
-  frame.lens = glm::vec4(0, 0, 2.0f / 1280, 2.0f / 720);
+  frame.forward = forward;
+  frame.perspective = perspective ? 1 : 0;
+  frame.right = 0.8f * right;
+  frame.up = 0.45f * glm::cross(right, forward);
+  frame.pixelStep = {2.0f / 1280, 2.0f / 720};
   return frame;
 }
 
@@ -39,8 +40,8 @@ struct DebugScene {
     frame = frameAlong(randomDirection(generator), perspective);
     points = randomPoints(generator, random, kPoints);
     for (AskedPoint& point : points) {
-      point.relative += glm::vec3(frame.forward) * 9.0f;
-      point.viewDepth = glm::dot(point.relative, glm::vec3(frame.forward)) + 1; // splits come before surfaces
+      point.relative += frame.forward * 9.0f;
+      point.viewDepth = glm::dot(point.relative, frame.forward) + 1; // splits come before surfaces
       const shared::LightData& light = random.lights[0];
       point.toLight =
           lightType == GNOMON_DIRECTIONAL ? light.direction : glm::normalize(light.position - point.relative);
@@ -148,8 +149,7 @@ TEST(DebugLight, CastersAreWhatTheShadersTextGives) {
       for (std::size_t i = 0; i < expected.size(); ++i) {
         off.compare(numbers[i].x, static_cast<float>(expected[i]), 1e-6f);
         const AskedPoint& point = scene.points[i];
-        const glm::vec3 toEye =
-            scene.frame.forward.w > 0 ? -glm::normalize(point.relative) : -glm::vec3(scene.frame.forward);
+        const glm::vec3 toEye = scene.frame.perspective != 0u ? -glm::normalize(point.relative) : -scene.frame.forward;
         const glm::vec3 lit(0.25f + 0.35f * std::abs(glm::dot(point.normal, toEye)));
         const glm::vec3 color = numbers[i].x < 0 ? lit : truth::nodeColor(static_cast<int>(numbers[i].x));
         for (int axis = 0; axis < 3; ++axis) colorsOff.compare(colors[i][axis], color[axis], 1e-4f);
@@ -197,7 +197,7 @@ TEST(Probe, PointsGetTheirShareOfTheTiles) {
     for (AskedPoint& point : scene.points) {
       const auto group = static_cast<std::uint8_t>(point.groupBit == 1 ? 0 : 1);
       probes.push_back({glm::dvec3(point.relative), glm::dvec3(point.normal), group});
-      point.viewDepth = glm::dot(point.relative, glm::vec3(scene.frame.forward));
+      point.viewDepth = glm::dot(point.relative, scene.frame.forward);
       expected.push_back(truth::shadowVisibility(maps, 0, point));
     }
     maps.lights = scene.random.lights;

@@ -31,11 +31,11 @@ vec2 pixelsAlong(const DebugMaps& debug, const AskedPoint& receiver, vec3 way) {
   const vec3 right = vec3(frame.right) / dot(vec3(frame.right), vec3(frame.right));
   const vec3 up = vec3(frame.up) / dot(vec3(frame.up), vec3(frame.up));
   vec2 moved(dot(way, right), dot(way, up));
-  if (frame.forward.w > 0.0f) {
+  if (frame.perspective != 0u) {
     const vec2 place = vec2(dot(receiver.relative, right), dot(receiver.relative, up)) / receiver.viewDepth;
     moved = (moved - place * dot(way, vec3(frame.forward))) / receiver.viewDepth;
   }
-  return moved / vec2(frame.lens.z, frame.lens.w);
+  return moved / frame.pixelStep;
 }
 
 TexelEdges texelEdges(const DebugMaps& debug, const DebugTexel& texel, const AskedPoint& receiver) {

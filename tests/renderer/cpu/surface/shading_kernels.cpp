@@ -58,7 +58,7 @@ void pictures(const FrameScene& scene, const LightInput& lights, const FragmentI
     const Fragments fragments = fragmentsAt(in, row);
     const Surface surface = any(fragments.shown) ? surfaceOf(scene, in.textures, fragments) : Surface{};
     const Float3 radiance = radianceToEye(scene, lighting, fragments, surface, visibility);
-    const Float3 color = shownColor(seenLight(radiance, Float3(0.0f), 1.0f), scene.frame.depthRange.z,
+    const Float3 color = shownColor(seenLight(radiance, Float3(0.0f), 1.0f), scene.frame.exposureScale,
                                     lights.encoded ? GNOMON_TONE_ACES : GNOMON_TONE_NONE);
     store(color.x, out.column(0) + row);
     store(color.y, out.column(1) + row);

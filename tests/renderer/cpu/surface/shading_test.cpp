@@ -40,7 +40,7 @@ glm::vec3 pictureOf(const FrameScene& scene, const LightInput& lights, const Num
     const auto point =
         shared::surfacePoint(surface.triple(row, kBaseColor), surface.at(row, kMetallic), surface.at(row, kRoughness),
                              surface.triple(row, kNormal), -glm::normalize(relative));
-    radiance += glm::vec3(scene.frame.ambient) * shared::ambientReflected(point) * surface.at(row, kOcclusion);
+    radiance += scene.frame.ambient * shared::ambientReflected(point) * surface.at(row, kOcclusion);
     for (const std::uint32_t light : asked) {
       if ((lights.lights[light].litGroups & static_cast<std::uint32_t>(surface.at(row, kGroupBit))) == 0) continue;
       glm::vec3 toLight;
@@ -48,7 +48,7 @@ glm::vec3 pictureOf(const FrameScene& scene, const LightInput& lights, const Num
       radiance += shared::reflectedRadiance(point, toLight) * arriving * (light % 2 == 0 ? 1.0f : 0.25f);
     }
   }
-  const glm::vec3 exposed = radiance * scene.frame.depthRange.z;
+  const glm::vec3 exposed = radiance * scene.frame.exposureScale;
   return lights.encoded ? shared::acesToneMapped(exposed) : exposed;
 }
 
