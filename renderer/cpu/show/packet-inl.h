@@ -17,6 +17,17 @@ namespace gnomon::cpu::HWY_NAMESPACE {
 
 static_assert(FragmentList::kPacket == kLanes);
 
+using cpu::columnOf;
+using cpu::rowOf;
+
+/// As show_view.h has it for one pixel.
+HWY_INLINE Int columnOf(const Int& pixel) {
+  return (shiftRight<2>(pixel) & Int(12)) | (pixel & Int(3));
+}
+HWY_INLINE Int rowOf(const Int& pixel) {
+  return (shiftRight<4>(pixel) & Int(12)) | (shiftRight<2>(pixel) & Int(3));
+}
+
 struct Packet {
   Fragments fragments;
   Int samples;
@@ -55,8 +66,8 @@ HWY_INLINE Packet packetAt(const FragmentList& list, std::size_t first, int squa
   packet.samples = load(&list.samples[first]);
   packet.fragments.shown = left >= kLanes ? maskOf(0xffffu) : firstLanes(left);
   packet.fragments.triangle = load(&list.triangle[first]);
-  packet.fragments.x = Int(squareX) + ((shiftRight<2>(pixel) & Int(12)) | (pixel & Int(3)));
-  packet.fragments.y = Int(squareY) + ((shiftRight<4>(pixel) & Int(12)) | (shiftRight<2>(pixel) & Int(3)));
+  packet.fragments.x = Int(squareX) + columnOf(pixel);
+  packet.fragments.y = Int(squareY) + rowOf(pixel);
   packet.fragments.center = {toFloat(packet.fragments.x) + 0.5f, toFloat(packet.fragments.y) + 0.5f};
   packet.whole = all(packet.samples == Int(means.all));
   const Float withinX = packet.whole ? Float(means.x[means.all]) : gather(means.x, packet.samples);

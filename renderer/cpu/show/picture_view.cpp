@@ -48,8 +48,8 @@ void fillBehindVolumes(const ShowJob& job, int squareX, int squareY, const glm::
   const SeenLight behind = seenLight(Float3(0.0f), Float3(glm::vec3(background)), background.w);
   for (int first = 0; first < static_cast<int>(kTilePixels); first += static_cast<int>(kLanes)) {
     const Int pixel = Int(first) + laneNumbers();
-    const Int x = Int(squareX) + ((shiftRight<2>(pixel) & Int(12)) | (pixel & Int(3)));
-    const Int y = Int(squareY) + ((shiftRight<4>(pixel) & Int(12)) | (shiftRight<2>(pixel) & Int(3)));
+    const Int x = Int(squareX) + columnOf(pixel);
+    const Int y = Int(squareY) + rowOf(pixel);
     const auto [color, alpha] =
         shownColor(job, behind, min(x, Int(job.scene.width - 1)), min(y, Int(job.scene.height - 1)));
     const auto at = static_cast<std::size_t>(first);

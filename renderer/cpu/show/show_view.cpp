@@ -19,7 +19,7 @@ void writeSquare(const TileColors& colors, int x, int y, Image& image, std::vect
     const auto line = static_cast<std::size_t>(image.height - 1 - y - row) * static_cast<std::size_t>(image.width);
     T* out = &pixels[(line + static_cast<std::size_t>(x)) * channels];
     for (int column = 0; column < std::min(kTileSide, image.width - x); ++column) {
-      const auto pixel = static_cast<std::size_t>((row & 12) << 4 | (column & 12) << 2 | (row & 3) << 2 | (column & 3));
+      const auto pixel = static_cast<std::size_t>(pixelAt(column, row));
       for (std::size_t c = 0; c < channels; ++c) *out++ = convert(c, colors.channels[c][pixel]);
     }
   }
@@ -32,7 +32,7 @@ void writeBytes(const TileBytes& bytes, int x, int y, Image& image, std::vector<
   for (int row = 0; row < std::min(kTileSide, image.height - y); ++row) {
     const auto line = static_cast<std::size_t>(image.height - 1 - y - row) * static_cast<std::size_t>(image.width);
     std::uint8_t* out = &pixels[(line + static_cast<std::size_t>(x)) * channels];
-    const std::uint8_t* in = &bytes.pixels[static_cast<std::size_t>(4 * ((row & 12) << 4 | (row & 3) << 2))];
+    const std::uint8_t* in = &bytes.pixels[static_cast<std::size_t>(4 * pixelAt(0, row))];
     int left = columns;
     for (; left >= 4; left -= 4, in += 64, out += 4 * channels) std::memcpy(out, in, 4 * channels);
     if (left > 0) std::memcpy(out, in, static_cast<std::size_t>(left) * channels);

@@ -60,6 +60,9 @@ constexpr int columnOf(int pixel) {
 constexpr int rowOf(int pixel) {
   return (pixel >> 4 & 12) | (pixel >> 2 & 3);
 }
+constexpr int pixelAt(int column, int row) {
+  return (row & 12) << 4 | (column & 12) << 2 | (row & 3) << 2 | (column & 3);
+}
 
 /// The fragments of the square whose lower left pixel is x, y, those of an instance one behind the other: block by
 /// block, of each first what its pixels' first samples show, then what others show. Where dozens of instances show,
