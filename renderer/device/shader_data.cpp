@@ -146,6 +146,7 @@ shared::TileData tileData(const ShadowTile& tile, const glm::dvec2& atlas) {
   out.right = glm::vec3(tile.space.basis.right * step.x);
   out.up = glm::vec3(tile.space.basis.up * step.y);
   out.filterReach = static_cast<float>(fit.radius);
+  out.perspective = fit.perspective ? 1 : 0;
   return out;
 }
 

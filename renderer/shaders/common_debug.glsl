@@ -134,8 +134,8 @@ vec4 debugData(Receiver receiver) {
 float biasMetres(DebugTexel texel, Receiver receiver) {
   Lookup at = lookupIn(lights[debugLight], texel.data, receiver, towardsDebugLight(receiver));
   if (!at.inside) return 0.0;
-  vec2 slope = comparedSlope(lights[debugLight], texel.data, receiver);
-  at.coordinate.z -= bendRoom(lights[debugLight], texel.data, at, slope, 1.0);
+  vec2 slope = comparedSlope(lights[debugLight], texel.data, receiver.relative, receiver.normal);
+  at.coordinate.z -= bendRoom(lights[debugLight], texel.data, at.divisor, slope, 1.0);
   vec3 last = texel.data.atlasFromRelative[3].xyz;
   mat3 planes = mat3(texel.data.atlasFromRelative[0].xyz - at.coordinate.x * last,
                      texel.data.atlasFromRelative[1].xyz - at.coordinate.y * last,
@@ -167,10 +167,10 @@ int casterNode(Receiver receiver) {
   DebugTexel texel = debugTexel(receiver);
   if (!texel.found) return -1;
   Lookup at = lookupIn(lights[debugLight], texel.data, receiver, towardsDebugLight(receiver));
-  vec2 slope = comparedSlope(lights[debugLight], texel.data, receiver);
+  vec2 slope = comparedSlope(lights[debugLight], texel.data, receiver.relative, receiver.normal);
   vec2 place = at.coordinate.xy * atlasTexels;
   ivec2 under = ivec2(place);
-  at.coordinate.z -= bendRoom(lights[debugLight], texel.data, at, slope, 1.0);
+  at.coordinate.z -= bendRoom(lights[debugLight], texel.data, at.divisor, slope, 1.0);
   float plane = at.coordinate.z + dot(slope, vec2(under) + 0.5 - place);
   if (!at.inside || mapDepths(vec4(plane)).x <= texelFetch(casterDepths, under, 0).r) return -1;
   return texelFetch(casterNodes, under, 0).r;

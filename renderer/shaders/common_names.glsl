@@ -4,3 +4,6 @@
 #define GNOMON_OUT(type) out type
 #define Real float
 #define select(condition, yes, no) ((condition) ? (yes) : (no))
+
+// A row of an affine matrix times a point. No macro: Mesa 22 loses its way where a variable has the name of one.
+float along(vec4 row, vec3 place) { return dot(row, vec4(place, 1.0)); }

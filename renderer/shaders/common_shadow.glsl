@@ -16,20 +16,20 @@ float tileVisibility(LightData light, TileData tile, Receiver receiver, vec3 toL
 #else
   int kind = light.filterKind;
 #endif
-  vec2 slope = comparedSlope(light, tile, receiver);
+  vec2 slope = comparedSlope(light, tile, receiver.relative, receiver.normal);
 #ifdef FILTER_MOMENTS
-  if (GNOMON_READS_MOMENTS(kind)) return momentVisibility(at.coordinate.xy, momentDepth(tile, at), kind);
+  if (GNOMON_READS_MOMENTS(kind)) return momentVisibility(at.coordinate.xy, momentDepth(tile, at.coordinate.z, at.divisor), kind);
 #endif
 #ifdef FILTER_DISC
   if (kind == GNOMON_FILTER_DISC) {
     vec2 radius = light.filterRadius * tile.atlasPerMetre * atlasTexelCount() / at.divisor;
-    at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0 + max(radius.x, radius.y));
-    return discVisibility(tile, at, slope, discRadius(tile, at, light.filterRadius), kWholeDisc);
+    at.coordinate.z -= bendRoom(light, tile, at.divisor, slope, 1.0 + max(radius.x, radius.y));
+    return discVisibility(tile, at, slope, discRadius(tile, light.filterRadius, at.divisor), kWholeDisc);
   }
 #endif
 #ifdef FILTER_PCSS
   if (kind == GNOMON_FILTER_PCSS) {
-    return pcssVisibility(light, tile, at, slope) * shareAbovePlane(light, receiver, toLight);
+    return pcssVisibility(light, tile, at, slope) * shareAbovePlane(light, receiver.relative, receiver.normal, toLight);
   }
 #endif
 #ifdef FILTER_SIZE
@@ -37,7 +37,7 @@ float tileVisibility(LightData light, TileData tile, Receiver receiver, vec3 toL
 #else
   int size = light.filterSize;
 #endif
-  at.coordinate.z -= bendRoom(light, tile, at, slope, 0.5 * float(size + 1));
+  at.coordinate.z -= bendRoom(light, tile, at.divisor, slope, 0.5 * float(size + 1));
   return kernelVisibility(at.coordinate.xy * atlasTexelCount(), PlaneDepths(at.coordinate.z, slope), size);
 }
 

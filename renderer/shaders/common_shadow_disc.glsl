@@ -1,8 +1,5 @@
 // Percentage-closer filtering over a disc of the world, and over one as wide as the penumbra.
 #if defined(FILTER_DISC) || defined(FILTER_PCSS)
-const int kDiscTaps = 32;
-const float kGoldenAngle = 2.39996323;
-
 // Where the picture shows the receiver.
 #ifndef SHADED_PIXEL
 #define SHADED_PIXEL gl_FragCoord.xy
@@ -22,10 +19,10 @@ float discVisibility(TileData tile, Lookup at, vec2 slope, float radius, float h
   float turn = discTurn();
   float sum = 0.0;
   float count = 0.0;
-  for (int i = 0; i < kDiscTaps; ++i) {
+  for (int i = 0; i < GNOMON_DISC_TAPS; ++i) {
     // Vogel's spiral: equal areas.
-    float angle = turn + float(i) * kGoldenAngle;
-    vec2 step = vec2(cos(angle), sin(angle)) * (radius * sqrt((float(i) + 0.5) / float(kDiscTaps)));
+    float angle = turn + float(i) * GNOMON_GOLDEN_ANGLE;
+    vec2 step = vec2(cos(angle), sin(angle)) * (radius * sqrt((float(i) + 0.5) / float(GNOMON_DISC_TAPS)));
     vec2 place = at.coordinate.xy + step * tile.atlasPerMetre;
     float rise = dot(slope, (place - at.coordinate.xy) * texels);
     if (rise < -height) continue;
@@ -34,15 +31,5 @@ float discVisibility(TileData tile, Lookup at, vec2 slope, float radius, float h
     sum += outside ? 1.0 : tapVisibility(place * texels, PlaneDepths(at.coordinate.z + rise, slope));
   }
   return sum / max(count, 1.0);
-}
-#endif
-
-#ifdef FILTER_DISC
-// `radius`: metres; as a length across the light.
-float discRadius(TileData tile, Lookup at, float radius) {
-#ifdef PUNCTUAL
-  if (!isParallel(tile)) return min(radius / at.divisor, 0.5); // kWidestTangent of renderer/shadow/fit.h
-#endif
-  return radius;
 }
 #endif

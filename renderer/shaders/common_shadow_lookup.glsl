@@ -1,4 +1,5 @@
 // Where a receiver lies in a light's tiles.
+#include "common_names.glsl"
 #ifdef LIGHT_COUNT
 // Loops over them may be unrolled, and of an array without a length NVIDIA's driver 580 reads zeros at a constant place
 // past the first.
@@ -67,27 +68,10 @@ struct Lookup {
   bool inside;     // of what the tile covers; outside everything is lit
 };
 
-// The receiver, moved so that its surface doesn't shadow itself: automatically along its normal by
-// reach * sin(angle) (see renderer/shadow/filter_kernel.h), or as the light's own bias says.
-vec3 movedReceiver(LightData light, TileData tile, Receiver receiver, vec3 toLight) {
-#ifdef MANUAL_BIAS
-  if (light.hasManualBias != 0u) {
-    float cosine = clamp(dot(receiver.normal, toLight), 1e-2, 1.0);
-    float tangent = sqrt(1.0 - cosine * cosine) / cosine;
-    return receiver.relative + receiver.normal * light.manualNormalOffset +
-           toLight * (light.manualDepthBias + light.manualSlopeBias * tangent);
-  }
-#endif
-  float cosine = dot(receiver.normal, tile.axis);
-  float offset = tile.normalOffset * sqrt(max(1.0 - cosine * cosine, 0.0));
-#ifdef PUNCTUAL
-  offset *= dot(tile.atlasFromRelative[3], vec4(receiver.relative, 1.0));
-#endif
-  return receiver.relative + receiver.normal * offset;
-}
+#include "shared/shadow_bias.h"
 
 Lookup lookupIn(LightData light, TileData tile, Receiver receiver, vec3 toLight) {
-  vec4 p = vec4(movedReceiver(light, tile, receiver, toLight), 1.0);
+  vec4 p = vec4(movedReceiver(light, tile, receiver.relative, receiver.normal, toLight), 1.0);
   Lookup at;
   at.coordinate = vec3(dot(tile.atlasFromRelative[0], p), dot(tile.atlasFromRelative[1], p),
                        dot(tile.atlasFromRelative[2], p));
@@ -112,46 +96,4 @@ Lookup lookupIn(LightData light, TileData tile, Receiver receiver, vec3 toLight)
     at.inside = false;
   }
   return at;
-}
-
-bool isParallel(TileData tile) {
-#ifdef PUNCTUAL
-  return dot(tile.atlasFromRelative[3].xyz, tile.axis) == 0.0;
-#else
-  return true;
-#endif
-}
-
-// How the tile's depth changes on the receiver's plane with each texel.
-vec2 receiverSlope(TileData tile, Receiver receiver, vec3 lightPosition) {
-  vec2 across = vec2(dot(receiver.normal, tile.right), dot(receiver.normal, tile.up));
-  if (isParallel(tile)) return across / -min(dot(receiver.normal, tile.axis), -1e-4);
-  // z is a line in 1 / distance, and so is 1 / distance in the tangents of a plane.
-  return across / min(dot(receiver.normal, receiver.relative - lightPosition), -1e-6);
-}
-
-// The slope that comparisons follow: none where the light's own bias says all.
-vec2 comparedSlope(LightData light, TileData tile, Receiver receiver) {
-#ifdef MANUAL_BIAS
-  if (light.hasManualBias != 0u) return vec2(0.0);
-#endif
-  return receiverSlope(tile, receiver, light.position);
-}
-
-// By how much a surface may rise over the receiver's plane within a texel and not shadow it, z: where it bends by up to
-// kBendAngle radians, but no more than the plane itself rises on kBendTexels; and what a normal of 16 bits an axis may lean
-// on the way to the farthest texel, `reach` away, which is more where the light all but grazes the surface.
-const float kBendAngle = 0.1;
-const float kBendTexels = 0.3;
-const float kNormalRounding = 2e-4;
-
-float bendRoom(LightData light, TileData tile, Lookup at, vec2 slope, float reach) {
-#ifdef MANUAL_BIAS
-  if (light.hasManualBias != 0u) return 0.0;
-#endif
-  // With the depth that a texel's width is worth: tan(a + bend) - tan(a) is about bend (1 + tan(a)^2).
-  float texel = tile.texelDepth / at.divisor;
-  float bent = texel + dot(slope, slope) / max(texel, 1e-30);
-  float most = kBendTexels * (texel + abs(slope.x) + abs(slope.y));
-  return max(min(kBendAngle * bent, most), kNormalRounding * reach * bent);
 }

@@ -1,8 +1,6 @@
 // Percentage-closer soft shadows. (Fernando, "Percentage-Closer Soft Shadows", SIGGRAPH 2005.) Depths of light from a
 // point are lines in 1 / distance, as the width of a penumbra is, seen from the light: one formula serves all lights.
 #ifdef FILTER_PCSS
-const int kSearchTaps = 32;
-
 // The radius of the penumbra, a length across the light, for each z between caster and receiver.
 float penumbraPerDepth(LightData light, TileData tile) {
   return light.filterRadius / (tile.texelDepth * tile.atlasPerMetre.x * atlasTexelCount().x);
@@ -25,9 +23,9 @@ float casterHeight(LightData light, TileData tile, Lookup at, vec2 slope, float 
   float seen = 2.0 / texelsAcross(tile, 1.0);
   vec2 covering = vec2(0.0); // sum and count
   vec2 standing = vec2(0.0);
-  for (int i = 0; i < kSearchTaps; ++i) {
-    float angle = turn + float(i) * kGoldenAngle;
-    float share = float(i) / float(kSearchTaps - 1);
+  for (int i = 0; i < GNOMON_SEARCH_TAPS; ++i) {
+    float angle = turn + float(i) * GNOMON_GOLDEN_ANGLE;
+    float share = float(i) / float(GNOMON_SEARCH_TAPS - 1);
     float reach = radius * share * share;
     vec2 place = at.coordinate.xy + vec2(cos(angle), sin(angle)) * reach * tile.atlasPerMetre;
     bool outside = any(lessThan(place, tile.lowest)) || any(greaterThan(place, tile.highest));
@@ -46,24 +44,11 @@ float casterHeight(LightData light, TileData tile, Lookup at, vec2 slope, float 
   return mean.y > 0.0 ? mean.x / mean.y : -1.0;
 }
 
-// The share of the light's disc that stands above the receiver's own plane: (asin x + x sqrt(1 - x^2)) / pi + 1/2 to
-// within 0.0006, x from the light's middle to the plane in radii of the disc.
-float shareAbovePlane(LightData light, Receiver receiver, vec3 toLight) {
-  float cosine = dot(receiver.normal, toLight);
-  float x = cosine / (sqrt(max(1.0 - cosine * cosine, 1e-12)) * light.filterRadius);
-#ifdef PUNCTUAL
-  if (light.type != GNOMON_DIRECTIONAL) x *= length(light.position - receiver.relative);
-#endif
-  x = clamp(x, -1.0, 1.0);
-  float square = x * x;
-  return 0.5 + x * (0.6387 + square * (-0.1288 + square * (0.0457 - 0.0556 * square)));
-}
-
 // The radius of the penumbra at a receiver, a length across the light; negative where nothing stands before it.
 float penumbraRadius(LightData light, TileData tile, Lookup at, vec2 slope) {
   float perDepth = penumbraPerDepth(light, tile);
   float reach = min(perDepth * max(at.coordinate.z, 0.0), tile.filterReach);
-  at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0 + texelsAcross(tile, reach));
+  at.coordinate.z -= bendRoom(light, tile, at.divisor, slope, 1.0 + texelsAcross(tile, reach));
   float height = casterHeight(light, tile, at, slope, reach);
   return height < 0.0 ? height : min(perDepth * height, reach);
 }
@@ -71,7 +56,7 @@ float penumbraRadius(LightData light, TileData tile, Lookup at, vec2 slope) {
 float pcssVisibility(LightData light, TileData tile, Lookup at, vec2 slope) {
   float radius = penumbraRadius(light, tile, at, slope);
   if (radius < 0.0) return 1.0;
-  at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0 + texelsAcross(tile, radius));
+  at.coordinate.z -= bendRoom(light, tile, at.divisor, slope, 1.0 + texelsAcross(tile, radius));
   return discVisibility(tile, at, slope, radius, radius / penumbraPerDepth(light, tile));
 }
 #endif

@@ -17,7 +17,7 @@ uint halves(vec2 pixels) { return packHalf2x16(clamp(pixels, -6e4, 6e4)); }
 
 // The bias moves a point off its surface; along the light, back onto it.
 vec3 shiftOnSurface(Receiver receiver, TileData tile, vec3 toLight) {
-  vec3 moved = movedReceiver(lights[debugLight], tile, receiver, toLight) - receiver.relative;
+  vec3 moved = movedReceiver(lights[debugLight], tile, receiver.relative, receiver.normal, toLight) - receiver.relative;
   return moved - toLight * (dot(receiver.normal, moved) / dot(receiver.normal, toLight));
 }
 
@@ -26,7 +26,7 @@ float penumbraTexels(Receiver receiver, TileData tile, vec3 toLight) {
   LightData light = lights[debugLight];
   Lookup at = lookupIn(light, tile, receiver, toLight);
   if (light.filterKind != GNOMON_FILTER_PCSS || !at.inside) return 0.0;
-  return texelsAcross(tile, max(penumbraRadius(light, tile, at, comparedSlope(light, tile, receiver)), 0.0));
+  return texelsAcross(tile, max(penumbraRadius(light, tile, at, comparedSlope(light, tile, receiver.relative, receiver.normal)), 0.0));
 }
 #endif
 

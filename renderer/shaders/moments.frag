@@ -1,5 +1,6 @@
 #include "shared/frame_types.h"
-#include "common_moments.glsl"
+#include "common_names.glsl"
+#include "shared/moments.h"
 
 // One direction of a separable box blur over one tile: from the atlas' depths along x, or from the blurred rows along y.
 #ifdef ALONG_X
@@ -39,10 +40,10 @@ vec4 source(ivec2 at) {
   return momentsOf(linearDepth(texelFetch(depths, texel, 0).r), FILTER_KIND);
 #endif
 }
-const ivec2 along = ivec2(1, 0);
+const ivec2 way = ivec2(1, 0);
 #else
 vec4 source(ivec2 at) { return texelFetch(rows, at, 0); }
-const ivec2 along = ivec2(0, 1);
+const ivec2 way = ivec2(0, 1);
 #endif
 
 void main() {
@@ -58,7 +59,7 @@ void main() {
   for (int i = -reach; i <= reach; ++i) {
     float w = clamp(blur.x + 1.0 - float(abs(i * stride)), 0.0, 1.0);
     if (w <= 0.0) continue;
-    sum += w * source(clamp(here + along * (i * stride), ivec2(0), tile.zw - 1));
+    sum += w * source(clamp(here + way * (i * stride), ivec2(0), tile.zw - 1));
     weight += w;
   }
   target = sum / weight;

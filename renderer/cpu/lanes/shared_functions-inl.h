@@ -15,22 +15,33 @@ namespace gnomon::cpu::HWY_NAMESPACE {
 using Real = Float;
 using vec2 = Float2;
 using vec3 = Float3;
+using vec4 = Float4;
 using shared::LightData;
+using shared::TileData;
+
+/// A row of an affine matrix times points.
+HWY_INLINE Float along(const glm::vec4& row, const Float3& place) {
+  return mulAdd(place.x, row.x, mulAdd(place.y, row.y, mulAdd(place.z, row.z, row.w)));
+}
 
 #define GNOMON_FUNCTION HWY_INLINE
 #define GNOMON_CONSTANT(name, value) inline constexpr float name = value
 #define GNOMON_OUT(type) type&
 #define PUNCTUAL
+#define MANUAL_BIAS
 #include "renderer/shaders/shared/surroundings.h"
 // brdf.h calls what surroundings.h defines.
 #include "renderer/shaders/shared/brdf.h"
 #include "renderer/shaders/shared/heat_map.h"
 #include "renderer/shaders/shared/light.h"
+#include "renderer/shaders/shared/moments.h"
 #include "renderer/shaders/shared/normal_map.h"
 #include "renderer/shaders/shared/octahedral.h"
 #include "renderer/shaders/shared/picture.h"
+#include "renderer/shaders/shared/shadow_bias.h"
 #include "renderer/shaders/shared/smooth_surface.h"
 #include "renderer/shaders/shared/specular_glossiness.h"
+#undef MANUAL_BIAS
 #undef PUNCTUAL
 #undef GNOMON_OUT
 #undef GNOMON_CONSTANT

@@ -31,6 +31,13 @@ struct Float3 {
   HWY_INLINE explicit Float3(const glm::vec3& v) : x(v.x), y(v.y), z(v.z) {}
 };
 
+struct Float4 {
+  Float x, y, z, w;
+
+  Float4() = default;
+  HWY_INLINE Float4(const Float& x_, const Float& y_, const Float& z_, const Float& w_) : x(x_), y(y_), z(z_), w(w_) {}
+};
+
 /// Sixteen vectors that follow each other.
 HWY_INLINE Float3 loadVectors(const float* from) {
   Float3 v;

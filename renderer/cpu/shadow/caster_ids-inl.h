@@ -38,12 +38,12 @@ inline Int casterNodes(const DebugLight& debug, const Receiver& shown) {
     if (none(texel.found)) continue;
     const TileMap& casters = debug.casters[texel.tile];
     Lookup at = lookupIn(served.light, texel.data, receiver, served.toLight);
-    const Float2 slope = comparedSlope(served.light, texel.data, receiver);
+    const Float2 slope = comparedSlope(served.light, texel.data, receiver.relative, receiver.normal);
     const Float2 place = Float2(at.coordinate.x, at.coordinate.y) * Float2(debug.maps.atlasTexels) -
                          Float2(static_cast<float>(casters.rect.x), static_cast<float>(casters.rect.y));
     const Int x = truncated(place.x);
     const Int y = truncated(place.y);
-    at.coordinate.z -= bendRoom(served.light, texel.data, at, slope, 1.0f);
+    at.coordinate.z -= bendRoom(served.light, texel.data, at.divisor, slope, 1.0f);
     const Float plane = at.coordinate.z + dot(slope, Float2(toFloat(x) + 0.5f, toFloat(y) + 0.5f) - place);
     const Int index = columnIndex(casters, x) + rowIndex(casters, y);
     const Mask shadowed = texel.found & at.inside & andNot(isLit(plane, depthAt(casters, index)), maskOf(0xffffu));

@@ -206,8 +206,8 @@ inline DebugValue blendValue(const DebugLight& debug, const Receiver& receiver) 
 /// their coordinates meet: row - coordinate * last row, for u, v and depth.
 HWY_INLINE Float biasMetres(const ServedReceiver& served, const DebugTexel& texel) {
   Lookup at = lookupIn(served.light, texel.data, served.receiver, served.toLight);
-  const Float2 slope = comparedSlope(served.light, texel.data, served.receiver);
-  at.coordinate.z -= bendRoom(served.light, texel.data, at, slope, 1.0f);
+  const Float2 slope = comparedSlope(served.light, texel.data, served.receiver.relative, served.receiver.normal);
+  at.coordinate.z -= bendRoom(served.light, texel.data, at.divisor, slope, 1.0f);
   const Float3 a = gradient(texel.data, 0, at.coordinate.x);
   const Float3 b = gradient(texel.data, 1, at.coordinate.y);
   const Float3 c = gradient(texel.data, 2, at.coordinate.z);

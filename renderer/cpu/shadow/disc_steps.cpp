@@ -5,38 +5,37 @@
 namespace gnomon::cpu {
 namespace {
 
-constexpr double kGoldenAngle = 2.39996323;
-
 glm::vec2 turned(double radius, int index) {
-  return {radius * std::cos(index * kGoldenAngle), radius * std::sin(index * kGoldenAngle)};
+  return {radius * std::cos(index * GNOMON_GOLDEN_ANGLE), radius * std::sin(index * GNOMON_GOLDEN_ANGLE)};
 }
 
-std::array<glm::vec2, kDiscTaps> spiral() {
-  std::array<glm::vec2, kDiscTaps> steps;
-  for (int i = 0; i < kDiscTaps; ++i) steps[static_cast<std::size_t>(i)] = turned(std::sqrt((i + 0.5) / kDiscTaps), i);
+std::array<glm::vec2, GNOMON_DISC_TAPS> spiral() {
+  std::array<glm::vec2, GNOMON_DISC_TAPS> steps;
+  for (int i = 0; i < GNOMON_DISC_TAPS; ++i)
+    steps[static_cast<std::size_t>(i)] = turned(std::sqrt((i + 0.5) / GNOMON_DISC_TAPS), i);
   return steps;
 }
 
 glm::vec2 searched(int index) {
-  const double share = index / (kSearchTaps - 1.0);
+  const double share = index / (GNOMON_SEARCH_TAPS - 1.0);
   return turned(share * share, index);
 }
 
-std::array<glm::vec2, kSearchTaps> searchSpiral() {
-  std::array<glm::vec2, kSearchTaps> steps;
-  for (int i = 0; i < kSearchTaps; ++i) steps[static_cast<std::size_t>(i)] = searched(i);
+std::array<glm::vec2, GNOMON_SEARCH_TAPS> searchSpiral() {
+  std::array<glm::vec2, GNOMON_SEARCH_TAPS> steps;
+  for (int i = 0; i < GNOMON_SEARCH_TAPS; ++i) steps[static_cast<std::size_t>(i)] = searched(i);
   return steps;
 }
 
 } // namespace
 
-const std::array<glm::vec2, kDiscTaps>& discSteps() {
-  static const std::array<glm::vec2, kDiscTaps> steps = spiral();
+const std::array<glm::vec2, GNOMON_DISC_TAPS>& discSteps() {
+  static const std::array<glm::vec2, GNOMON_DISC_TAPS> steps = spiral();
   return steps;
 }
 
-const std::array<glm::vec2, kSearchTaps>& searchSteps() {
-  static const std::array<glm::vec2, kSearchTaps> steps = searchSpiral();
+const std::array<glm::vec2, GNOMON_SEARCH_TAPS>& searchSteps() {
+  static const std::array<glm::vec2, GNOMON_SEARCH_TAPS> steps = searchSpiral();
   return steps;
 }
 

@@ -75,11 +75,6 @@ HWY_INLINE EvenParts evenParts(const DepthBuffer& surfaces, int x, int y) {
   return parts;
 }
 
-/// Whether what a light's pixels read is told by corners: what they read is as far around each, whatever its depth.
-HWY_INLINE bool readsAlike(const LightData& light) {
-  return light.type == GNOMON_DIRECTIONAL && light.filterKind != GNOMON_FILTER_PCSS;
-}
-
 /// The first and the last of a light's tiles that each lane, and what is rounded otherwise beside it, may read.
 struct TileSpans {
   Int first, last;

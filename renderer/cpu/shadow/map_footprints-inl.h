@@ -15,7 +15,8 @@ namespace gnomon::cpu::HWY_NAMESPACE {
 /// The bias moves points off their surface; along the light, back onto it.
 HWY_INLINE Float3 shiftOnSurface(const ServedReceiver& served, const TileData& tile) {
   const Receiver& receiver = served.receiver;
-  const Float3 moved = movedReceiver(served.light, tile, receiver, served.toLight) - receiver.relative;
+  const Float3 moved =
+      movedReceiver(served.light, tile, receiver.relative, receiver.normal, served.toLight) - receiver.relative;
   return moved - served.toLight * (dot(receiver.normal, moved) / dot(receiver.normal, served.toLight));
 }
 
@@ -38,7 +39,7 @@ inline Float penumbraTexels(const ServedReceiver& served, const DebugTexel& texe
   if (light.filterKind != GNOMON_FILTER_PCSS || maps.maps[texel.tile].depths == nullptr) return 0.0f;
   const Lookup at = lookupIn(light, texel.data, served.receiver, served.toLight);
   if (none(at.inside & asked)) return 0.0f;
-  const Float2 slope = comparedSlope(light, texel.data, served.receiver);
+  const Float2 slope = comparedSlope(light, texel.data, served.receiver.relative, served.receiver.normal);
   const Float radius = penumbraRadius(maps, light, texel.tile, at, slope, served.receiver.place);
   return select(at.inside, texelsAcross(maps, texel.data, max(radius, 0.0f)), 0.0f);
 }

@@ -9,8 +9,8 @@
 #include <hwy/foreach_target.h>
 
 #include "renderer/core/parallel.h"
+#include "renderer/cpu/lanes/shared_functions-inl.h"
 #include "renderer/cpu/shadow/moment_rows.h"
-#include "renderer/cpu/shadow/moments-inl.h"
 #include "renderer/device/shader_data.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -39,7 +39,7 @@ inline void sourceRow(const DepthBuffer& depths, const MomentBlur& blur, int fir
   for (int sample = 0; sample < depths.samples; ++sample) {
     copyRow(depths, firstX, y, sample, window.depths);
     for (std::size_t x = 0; x < window.sourceWidth; x += kLanes) {
-      const Moments of = momentsOf(linearDepth(blur, load(window.depths.data() + x)), blur.kind);
+      const Float4 of = momentsOf(linearDepth(blur, load(window.depths.data() + x)), blur.kind);
       const Float* const parts[] = {&of.x, &of.y, &of.z, &of.w};
       for (std::size_t m = 0; m < window.row.size(); ++m) {
         float* at = window.row[m].data() + x;

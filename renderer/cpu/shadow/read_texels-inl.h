@@ -14,24 +14,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
 
-/// Texels to each side of a lookup that the light's filter reads, along x and y. A kernel's comparisons are bilinear,
-/// so that it takes half a texel more than its outermost one; so do taps of a disc, and moments.
-HWY_INLINE Float2 filterReach(const ShadowMaps& maps, const LightData& light, const TileData& tile, const Lookup& at) {
-  constexpr float kRounding = 1.0f / 64; // of places, texels
-  if (light.filterKind == GNOMON_FILTER_DISC) {
-    const Float radius = discRadius(tile, light.filterRadius, at.divisor);
-    const glm::vec2 texels = tile.atlasPerMetre * maps.atlasTexels;
-    return {radius * texels.x + (0.5f + kRounding), radius * texels.y + (0.5f + kRounding)};
-  }
-  if (light.filterKind == GNOMON_FILTER_PCSS) {
-    const Float radius = searchReach(maps, light, tile, at.coordinate.z);
-    const glm::vec2 texels = tile.atlasPerMetre * maps.atlasTexels;
-    return {radius * texels.x + (0.5f + kRounding), radius * texels.y + (0.5f + kRounding)};
-  }
-  const float size = GNOMON_READS_MOMENTS(light.filterKind) ? 1.0f : static_cast<float>(std::max(light.filterSize, 1));
-  return Float2(Float(0.5f * size + kRounding));
-}
-
 /// Texels around places.
 struct Reached {
   Int left, right, low, high;

@@ -21,12 +21,6 @@ HWY_INLINE Float2 discTurn(const Float2& place) {
   return {cos(angle), sin(angle)};
 }
 
-/// In the tile's lengths across: metres, or tangents.
-HWY_INLINE Float discRadius(const shared::TileData& tile, float lightRadius, const Float& divisor) {
-  if (isParallel(tile)) return lightRadius;
-  return min(lightRadius / divisor, 0.5f); // kWidestTangent of renderer/shadow/fit.h
-}
-
 /// Of a disc so far before the receivers that all of it is above their planes.
 inline constexpr float kWholeDisc = 1e30f;
 

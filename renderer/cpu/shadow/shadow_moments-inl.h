@@ -6,20 +6,11 @@
 #define GNOMON_CPU_SHADOW_MOMENTS_INL_H
 #endif
 
-#include "renderer/cpu/shadow/moments-inl.h"
 #include "renderer/cpu/shadow/shadow_lookup-inl.h"
 #include "renderer/cpu/shadow/shadow_texels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
-
-/// The receivers' depth as moments are made of it.
-HWY_INLINE Float momentDepth(const shared::TileData& tile, const Lookup& at) {
-  if (isParallel(tile)) return clamp(at.coordinate.z, 0.0f, 1.0f);
-  // Depths of the map, made linear, are no finer than this.
-  const Float bias = (3.0f * tile.depthBias * at.divisor * at.divisor + tile.depthBiasNear) / (tile.near * tile.far);
-  return clamp((at.divisor - tile.near) / (tile.far - tile.near) - bias, 0.0f, 1.0f);
-}
 
 /// Bilinear between the four texels around a place, in texels of the tile.
 HWY_INLINE Float blendedMoment(const TileMap& map, const Int& x, const Int& y, const Float2& fraction, int moment) {
@@ -35,7 +26,7 @@ inline Float momentVisibility(const TileMap& map, const Float2& place, const Flo
   const Float2 fraction(place.x - 0.5f - base.x, place.y - 0.5f - base.y);
   const Int x = truncated(base.x);
   const Int y = truncated(base.y);
-  Moments moments{blendedMoment(map, x, y, fraction, 0), blendedMoment(map, x, y, fraction, 1), 0.0f, 0.0f};
+  Float4 moments(blendedMoment(map, x, y, fraction, 0), blendedMoment(map, x, y, fraction, 1), 0.0f, 0.0f);
   if (kind != GNOMON_FILTER_VSM) {
     moments.z = blendedMoment(map, x, y, fraction, 2);
     moments.w = blendedMoment(map, x, y, fraction, 3);

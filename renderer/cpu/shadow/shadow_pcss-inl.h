@@ -81,24 +81,13 @@ inline Float casterHeight(const ShadowMaps& maps, const LightData& light, int ti
   return select(covering.count > 0.0f, covering.value(), standing.value());
 }
 
-/// The share of the light's disc that stands above the receivers' own planes: (asin x + x sqrt(1 - x^2)) / pi + 1/2 to
-/// within 0.0006, x from the light's middle to the plane in radii of the disc.
-HWY_INLINE Float shareAbovePlane(const LightData& light, const Receiver& receiver, const Float3& toLight) {
-  const Float cosine = dot(receiver.normal, toLight);
-  Float x = cosine / (sqrt(max(1.0f - cosine * cosine, 1e-12f)) * light.filterRadius);
-  if (light.type != GNOMON_DIRECTIONAL) x *= length(Float3(light.position) - receiver.relative);
-  x = clamp(x, -1.0f, 1.0f);
-  const Float square = x * x;
-  return 0.5f + x * (0.6387f + square * (-0.1288f + square * (0.0457f - 0.0556f * square)));
-}
-
 /// The radius of the penumbra at the receivers, a length across the light; negative where nothing stands before them.
 inline Float penumbraRadius(const ShadowMaps& maps, const LightData& light, int tileIndex, const Lookup& at,
                             const Float2& slope, const Float2& pixel) {
   const TileData& tile = maps.tiles[tileIndex];
   const Float reach = searchReach(maps, light, tile, at.coordinate.z);
   Lookup lowered = at;
-  lowered.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + texelsAcross(maps, tile, reach));
+  lowered.coordinate.z -= bendRoom(light, tile, at.divisor, slope, 1.0f + texelsAcross(maps, tile, reach));
   const Float height = casterHeight(maps, light, tileIndex, lowered, slope, reach, discTurn(pixel));
   return select(height >= 0.0f, min(penumbraPerDepth(maps, light, tile) * height, reach), height);
 }
@@ -112,7 +101,7 @@ inline Float pcssVisibility(const ShadowMaps& maps, const LightData& light, int 
   const TileData& tile = maps.tiles[tileIndex];
   const Float radius = max(found, 0.0f);
   Lookup lowered = at;
-  lowered.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + texelsAcross(maps, tile, radius));
+  lowered.coordinate.z -= bendRoom(light, tile, at.divisor, slope, 1.0f + texelsAcross(maps, tile, radius));
   const Float lit = discVisibility(maps, tileIndex, lowered, slope, radius,
                                    radius / penumbraPerDepth(maps, light, tile), pixel, asked & stands);
   return select(stands, lit, 1.0f);

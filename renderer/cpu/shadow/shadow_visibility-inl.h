@@ -31,23 +31,43 @@ inline Float tileVisibility(const ShadowMaps& maps, const LightData& light, int 
   if (none(read)) return 1.0f;
   const Float2 place = placeIn(maps, map, at);
   if (GNOMON_READS_MOMENTS(light.filterKind)) {
-    return select(at.inside, momentVisibility(map, place, momentDepth(tile, at), light.filterKind), 1.0f);
+    return select(at.inside,
+                  momentVisibility(map, place, momentDepth(tile, at.coordinate.z, at.divisor), light.filterKind), 1.0f);
   }
-  const Float2 slope = comparedSlope(light, tile, receiver);
+  const Float2 slope = comparedSlope(light, tile, receiver.relative, receiver.normal);
   if (light.filterKind == GNOMON_FILTER_DISC) {
     const glm::vec2 texels = light.filterRadius * tile.atlasPerMetre * maps.atlasTexels;
     const Float radius = std::max(texels.x, texels.y) / at.divisor;
-    at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + radius);
+    at.coordinate.z -= bendRoom(light, tile, at.divisor, slope, 1.0f + radius);
     const Float across = discRadius(tile, light.filterRadius, at.divisor);
     return select(at.inside, discVisibility(maps, tileIndex, at, slope, across, kWholeDisc, receiver.place, read),
                   1.0f);
   }
   if (light.filterKind == GNOMON_FILTER_PCSS) {
     const Float lit = pcssVisibility(maps, light, tileIndex, at, slope, receiver.place, read);
-    return select(at.inside, lit * shareAbovePlane(light, receiver, toLight), 1.0f);
+    return select(at.inside, lit * shareAbovePlane(light, receiver.relative, receiver.normal, toLight), 1.0f);
   }
-  at.coordinate.z -= bendRoom(light, tile, at, slope, 0.5f * static_cast<float>(light.filterSize + 1));
+  at.coordinate.z -= bendRoom(light, tile, at.divisor, slope, 0.5f * static_cast<float>(light.filterSize + 1));
   return select(at.inside, squareVisibility(map, place, {at.coordinate.z, slope}, light.filterSize, read), 1.0f);
+}
+
+/// Texels to each side of a lookup that the light's filter reads, along x and y. A kernel's comparisons are bilinear,
+/// so that it takes half a texel more than its outermost one; so do taps of a disc, and moments.
+HWY_INLINE Float2 filterReach(const ShadowMaps& maps, const LightData& light, const TileData& tile, const Lookup& at) {
+  constexpr float kRounding = 1.0f / 64; // of places, texels
+  if (light.filterKind == GNOMON_FILTER_DISC || light.filterKind == GNOMON_FILTER_PCSS) {
+    const Float radius = light.filterKind == GNOMON_FILTER_DISC ? discRadius(tile, light.filterRadius, at.divisor)
+                                                                : searchReach(maps, light, tile, at.coordinate.z);
+    const glm::vec2 texels = tile.atlasPerMetre * maps.atlasTexels;
+    return {radius * texels.x + (0.5f + kRounding), radius * texels.y + (0.5f + kRounding)};
+  }
+  const float size = GNOMON_READS_MOMENTS(light.filterKind) ? 1.0f : static_cast<float>(std::max(light.filterSize, 1));
+  return Float2(Float(0.5f * size + kRounding));
+}
+
+/// Whether what a light's pixels read is told by corners: what they read is as far around each, whatever its depth.
+HWY_INLINE bool readsAlike(const LightData& light) {
+  return light.type == GNOMON_DIRECTIONAL && light.filterKind != GNOMON_FILTER_PCSS;
 }
 
 /// A face turned away from the light, or along it to within rounding, shadows itself.

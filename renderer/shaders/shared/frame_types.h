@@ -36,6 +36,11 @@ using glm::vec4;
 #define GNOMON_PLACE_WEIGHT 12 // of shadow volumes: the position's fourth coordinate
 #define GNOMON_MAP_PLACE 13    // in light maps, 0..1
 
+// Places of a disc that are compared, and those that are searched for casters.
+#define GNOMON_DISC_TAPS 32
+#define GNOMON_SEARCH_TAPS 32
+#define GNOMON_GOLDEN_ANGLE 2.39996323
+
 // Uniform buffer bindings.
 #define GNOMON_FRAME_BUFFER 0
 
@@ -210,7 +215,7 @@ struct TileData {
                      // tangent times the negative of what 1 / distance is multiplied by in depths
   float filterReach; // of its filter's disc at most, a length across the light
   vec3 up;           // the same along v
-  float padding1;
+  uint perspective;  // 0 = its light is parallel, and divisors are 1
 };
 
 // A point of a surface, of which the light is asked.

@@ -5,7 +5,7 @@
 #include "renderer/shaders/shared/frame_types.h"
 
 /// What shaders and C++ both compute, from one text, here a number at a time. The texts use what GLSL and GLM both have
-/// and these names: `Real`, a number; `select(condition, yes, no)`, where numbers may differ in the condition. They
+/// and these names: `Real`, a number; `select(condition, yes, no)`, where numbers may differ in the condition; `along(row, place)`. They
 /// branch only on what is the same for a whole frame, light or material, so that C++ may take them with `Real` for many
 /// numbers at once (renderer/cpu/lanes/shared_functions-inl.h).
 namespace gnomon::shared {
@@ -14,8 +14,10 @@ using glm::abs;
 using glm::clamp;
 using glm::cross;
 using glm::dot;
+using glm::exp;
 using glm::exp2;
 using glm::inversesqrt;
+using glm::length;
 using glm::max;
 using glm::min;
 using glm::mix;
@@ -31,20 +33,29 @@ T select(bool condition, const T& yes, const T& no) {
   return condition ? yes : no;
 }
 
+/// A row of an affine matrix times a point.
+inline float along(const vec4& row, const vec3& place) {
+  return dot(row, vec4(place, 1.0f));
+}
+
 #define GNOMON_FUNCTION inline
 #define GNOMON_CONSTANT(name, value) inline constexpr float name = value
 #define GNOMON_OUT(type) type&
 #define PUNCTUAL
+#define MANUAL_BIAS
 #include "renderer/shaders/shared/surroundings.h"
 // brdf.h calls what surroundings.h defines.
 #include "renderer/shaders/shared/brdf.h"
 #include "renderer/shaders/shared/heat_map.h"
 #include "renderer/shaders/shared/light.h"
+#include "renderer/shaders/shared/moments.h"
 #include "renderer/shaders/shared/normal_map.h"
 #include "renderer/shaders/shared/octahedral.h"
 #include "renderer/shaders/shared/picture.h"
+#include "renderer/shaders/shared/shadow_bias.h"
 #include "renderer/shaders/shared/smooth_surface.h"
 #include "renderer/shaders/shared/specular_glossiness.h"
+#undef MANUAL_BIAS
 #undef PUNCTUAL
 #undef GNOMON_OUT
 #undef GNOMON_CONSTANT

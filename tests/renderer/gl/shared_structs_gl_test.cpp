@@ -79,7 +79,7 @@ const std::vector<Member> kTile{
     MEMBER(TileData, right),
     MEMBER(TileData, filterReach),
     MEMBER(TileData, up),
-    MEMBER(TileData, padding1),
+    MEMBER(TileData, perspective),
 };
 const std::vector<Member> kProbe{MEMBER(ProbeData, relative), MEMBER(ProbeData, normal)};
 

@@ -86,8 +86,8 @@ float texelDensity(const DebugMaps& debug, const DebugTexel& texel, const AskedP
 float biasMetres(const DebugMaps& debug, const DebugTexel& texel, const AskedPoint& receiver) {
   Lookup at = lookupIn(lightOf(debug), texel.data, receiver);
   if (!at.inside) return 0.0f;
-  const vec2 slope = comparedSlope(lightOf(debug), texel.data, receiver);
-  at.coordinate.z -= bendRoom(lightOf(debug), texel.data, at, slope, 1.0f);
+  const vec2 slope = shared::comparedSlope(lightOf(debug), texel.data, receiver.relative, receiver.normal);
+  at.coordinate.z -= shared::bendRoom(lightOf(debug), texel.data, at.divisor, slope, 1.0f);
   const vec3 last(texel.data.atlasFromRelative[3]);
   const glm::mat3 planes(vec3(texel.data.atlasFromRelative[0]) - at.coordinate.x * last,
                          vec3(texel.data.atlasFromRelative[1]) - at.coordinate.y * last,
@@ -99,10 +99,10 @@ int casterNode(const DebugMaps& debug, const AskedPoint& receiver) {
   const auto texel = debugTexel(debug, receiver);
   if (!texel) return -1;
   Lookup at = lookupIn(lightOf(debug), texel->data, receiver);
-  const vec2 slope = comparedSlope(lightOf(debug), texel->data, receiver);
+  const vec2 slope = shared::comparedSlope(lightOf(debug), texel->data, receiver.relative, receiver.normal);
   const vec2 place = vec2(at.coordinate) * debug.maps.atlasTexels;
   const ivec2 under(place);
-  at.coordinate.z -= bendRoom(lightOf(debug), texel->data, at, slope, 1.0f);
+  at.coordinate.z -= shared::bendRoom(lightOf(debug), texel->data, at.divisor, slope, 1.0f);
   const float plane = at.coordinate.z + dot(slope, vec2(under) + 0.5f - place);
   if (!at.inside) return -1;
   const TileMap& casters = debug.casters[static_cast<std::size_t>(texel->tile)];
@@ -143,7 +143,8 @@ MapFootprint footprint(const DebugMaps& debug, const AskedPoint& receiver) {
   if (!texel) return seen;
   const TexelEdges edges = texelEdges(debug, *texel, receiver);
   const float scale = std::max(std::abs(edges.scale), 1e-30f);
-  vec3 moved = movedReceiver(light, texel->data, receiver) - receiver.relative;
+  vec3 moved = shared::movedReceiver(light, texel->data, receiver.relative, receiver.normal, receiver.toLight) -
+               receiver.relative;
   moved -= toLight * (dot(receiver.normal, moved) / dot(receiver.normal, toLight));
   const auto pictured = [](vec2 pixels) { return glm::clamp(pixels, -6e4f, 6e4f) * vec2(1, -1); };
   seen.shift = pictured(pixelsAlong(debug, receiver, moved));

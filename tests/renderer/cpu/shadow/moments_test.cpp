@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "renderer/shaders/shared/frame_types.h"
+#include "renderer/shaders/shared/functions.h"
 #include "tests/renderer/cpu/instruction_sets.h"
 #include "tests/renderer/cpu/shadow/random_maps.h"
 
@@ -21,11 +21,7 @@ struct Truth {
       const float distance = blur.nearest * blur.farthest / (blur.farthest - depth * span);
       depth = glm::clamp((distance - blur.nearest) / span, 0.0f, 1.0f);
     }
-    const float z = 2.0f * depth - 1.0f;
-    if (blur.kind == GNOMON_FILTER_VSM) return {depth - 0.5f, (depth - 0.5f) * (depth - 0.5f), 0, 0};
-    if (blur.kind == GNOMON_FILTER_MSM) return {z, z * z, z * z * z, z * z * z * z};
-    const glm::vec2 w(std::exp(40.0f * z), -std::exp(-5.0f * z));
-    return {w.x, w.x * w.x, w.y, w.y * w.y};
+    return shared::momentsOf(depth, blur.kind);
   }
   glm::vec4 texel(int x, int y) const {
     glm::vec4 sum(0);

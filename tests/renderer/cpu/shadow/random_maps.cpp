@@ -41,15 +41,9 @@ DepthBuffer randomDepths(std::mt19937& random, int width, int height, int sample
   return buffer;
 }
 
-/// Blurred moments of random pairs of depths, by the definitions of shaders/common_moments.glsl.
+/// Blurred moments of random pairs of depths, by the definitions of shaders/shared/moments.h.
 std::vector<vec4> randomMoments(std::mt19937& random, std::size_t count, int kind) {
-  const auto of = [&](float depth) {
-    const float z = 2.0f * depth - 1.0f;
-    if (kind == GNOMON_FILTER_VSM) return vec4(depth - 0.5f, (depth - 0.5f) * (depth - 0.5f), 0, 0);
-    if (kind == GNOMON_FILTER_MSM) return vec4(z, z * z, z * z * z, z * z * z * z);
-    const vec2 w(std::exp(40.0f * z), -std::exp(-5.0f * z));
-    return vec4(w.x, w.x * w.x, w.y, w.y * w.y);
-  };
+  const auto of = [&](float depth) { return shared::momentsOf(depth, kind); };
   std::vector<vec4> moments(count);
   for (vec4& moment : moments) {
     moment = 0.4f * of(between(random, 0, 1)) + 0.35f * of(between(random, 0, 1)) + 0.25f * of(between(random, 0, 1));
@@ -71,6 +65,7 @@ shared::TileData tileData(const Rect& rect, const Axes& axes, const vec3& origin
   const float perspectiveDepth = kFarthest / (kFarthest - kNearest);
   if (perspective) tile.atlasFromRelative[2] = last * perspectiveDepth - vec4(0, 0, 0, kNearest * perspectiveDepth);
   tile.atlasFromRelative[3] = last;
+  tile.perspective = perspective ? 1 : 0;
   tile.lowest = (vec2(rect.x, rect.y) + 4.0f) / atlas;
   tile.highest = (vec2(rect.x, rect.y) + size - 4.0f) / atlas;
   tile.near = kNearest;

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <vector>
 
+#include "renderer/shaders/shared/functions.h"
+
 namespace gnomon::cpu::truth {
 
 using glm::abs;
@@ -21,41 +23,6 @@ using glm::vec3;
 using glm::vec4;
 using shared::LightData;
 using shared::TileData;
-
-bool isParallel(const TileData& tile) {
-  return dot(vec3(tile.atlasFromRelative[3]), tile.axis) == 0.0f;
-}
-
-vec3 movedReceiver(const LightData& light, const TileData& tile, const AskedPoint& receiver) {
-  if (light.hasManualBias != 0u) {
-    const float cosine = clamp(dot(receiver.normal, receiver.toLight), 1e-2f, 1.0f);
-    const float tangent = std::sqrt(1.0f - cosine * cosine) / cosine;
-    return receiver.relative + receiver.normal * light.manualNormalOffset +
-           receiver.toLight * (light.manualDepthBias + light.manualSlopeBias * tangent);
-  }
-  const float cosine = dot(receiver.normal, tile.axis);
-  float offset = tile.normalOffset * std::sqrt(max(1.0f - cosine * cosine, 0.0f));
-  offset *= dot(tile.atlasFromRelative[3], vec4(receiver.relative, 1.0f));
-  return receiver.relative + receiver.normal * offset;
-}
-
-vec2 receiverSlope(const TileData& tile, const AskedPoint& receiver, const vec3& lightPosition) {
-  const vec2 across(dot(receiver.normal, tile.right), dot(receiver.normal, tile.up));
-  if (isParallel(tile)) return across / -min(dot(receiver.normal, tile.axis), -1e-4f);
-  return across / min(dot(receiver.normal, receiver.relative - lightPosition), -1e-6f);
-}
-
-vec2 comparedSlope(const LightData& light, const TileData& tile, const AskedPoint& receiver) {
-  return light.hasManualBias != 0u ? vec2(0.0f) : receiverSlope(tile, receiver, light.position);
-}
-
-float bendRoom(const LightData& light, const TileData& tile, const Lookup& at, vec2 slope, float reach) {
-  if (light.hasManualBias != 0u) return 0.0f;
-  const float texel = tile.texelDepth / at.divisor;
-  const float bent = texel + dot(slope, slope) / max(texel, 1e-30f);
-  const float most = 0.3f * (texel + abs(slope.x) + abs(slope.y));
-  return max(min(0.1f * bent, most), 2e-4f * reach * bent);
-}
 
 namespace {
 
@@ -169,54 +136,6 @@ struct Reading {
   }
 };
 
-float chebyshev(vec2 moments, float depth, float leastVariance) {
-  if (depth <= moments.x) return 1.0f;
-  const float variance = max(moments.y - moments.x * moments.x, leastVariance);
-  const float beyond = depth - moments.x;
-  return variance / (variance + beyond * beyond);
-}
-
-float hamburger(vec4 moments, float depth) {
-  const vec4 m = mix(moments, vec4(0.0f, 0.375f, 0.0f, 0.375f), 3e-7f);
-  const float d1 = max(m.y - m.x * m.x, 1e-12f);
-  const float l21 = (m.z - m.x * m.y) / d1;
-  const float d2 = max(m.w - m.y * m.y - l21 * l21 * d1, 1e-12f);
-  const float y1 = depth - m.x;
-  const float y2 = depth * depth - m.y - l21 * y1;
-  const float x2 = y2 / d2;
-  const float x1 = y1 / d1 - l21 * x2;
-  const float x0 = 1.0f - m.x * x1 - m.y * x2;
-  const float half = -0.5f * x1 / x2;
-  const float spread = std::sqrt(max(half * half - x0 / x2, 0.0f));
-  const float low = half - spread;
-  const float high = half + spread;
-  if (depth <= low) return 0.0f;
-  if (depth <= high) {
-    return clamp((depth * high - m.x * (depth + high) + m.y) / ((high - low) * (depth - low)), 0.0f, 1.0f);
-  }
-  return clamp(1.0f - (low * high - m.x * (low + high) + m.y) / ((depth - low) * (depth - high)), 0.0f, 1.0f);
-}
-
-float withoutBleeding(float share) {
-  return clamp((share - 0.2f) / 0.8f, 0.0f, 1.0f);
-}
-
-float visibilityFrom(vec4 moments, float depth, int kind) {
-  if (kind == GNOMON_FILTER_VSM) return withoutBleeding(chebyshev(vec2(moments), depth - 0.5f, 1e-7f));
-  if (kind == GNOMON_FILTER_MSM) return withoutBleeding(1.0f - hamburger(moments, 2.0f * depth - 1.0f));
-  const float z = 2.0f * depth - 1.0f;
-  const vec2 w(std::exp(40.0f * z), -std::exp(-5.0f * z));
-  vec2 least = 1e-4f * vec2(40, 5) * w;
-  least *= least;
-  return withoutBleeding(min(chebyshev(vec2(moments), w.x, least.x), chebyshev({moments.z, moments.w}, w.y, least.y)));
-}
-
-float momentDepth(const TileData& tile, const Lookup& at) {
-  if (isParallel(tile)) return clamp(at.coordinate.z, 0.0f, 1.0f);
-  const float bias = (3.0f * tile.depthBias * at.divisor * at.divisor + tile.depthBiasNear) / (tile.near * tile.far);
-  return clamp((at.divisor - tile.near) / (tile.far - tile.near) - bias, 0.0f, 1.0f);
-}
-
 /// The share of a disc that stands above the receiver's plane.
 float shareAbovePlane(const LightData& light, const AskedPoint& receiver) {
   const float cosine = dot(receiver.normal, receiver.toLight);
@@ -230,17 +149,17 @@ float tileVisibility(const ShadowMaps& maps, const LightData& light, std::size_t
   const TileData& tile = maps.tiles[index];
   Lookup at = lookupIn(light, tile, receiver);
   if (!at.inside) return 1.0f;
-  const vec2 slope = comparedSlope(light, tile, receiver);
+  const vec2 slope = shared::comparedSlope(light, tile, receiver.relative, receiver.normal);
   const Reading reading{maps, tile, maps.maps[index], slope};
   const vec2 place = vec2(at.coordinate) * maps.atlasTexels;
   if (GNOMON_READS_MOMENTS(light.filterKind)) {
-    return visibilityFrom(reading.moments(place), momentDepth(tile, at), light.filterKind);
+    return shared::visibilityFrom(reading.moments(place), shared::momentDepth(tile, at.coordinate.z, at.divisor),
+                                  light.filterKind);
   }
   if (light.filterKind == GNOMON_FILTER_DISC) {
     const vec2 reach = light.filterRadius * tile.atlasPerMetre * maps.atlasTexels / at.divisor;
-    at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + max(reach.x, reach.y));
-    const bool parallel = isParallel(tile);
-    const float radius = parallel ? light.filterRadius : min(light.filterRadius / at.divisor, 0.5f);
+    at.coordinate.z -= shared::bendRoom(light, tile, at.divisor, slope, 1.0f + max(reach.x, reach.y));
+    const float radius = shared::discRadius(tile, light.filterRadius, at.divisor);
     return reading.disc(at, radius, HUGE_VALF, receiver.place);
   }
   if (light.filterKind == GNOMON_FILTER_PCSS) {
@@ -249,15 +168,15 @@ float tileVisibility(const ShadowMaps& maps, const LightData& light, std::size_t
     const float perDepth = light.filterRadius / (tile.texelDepth * perLength.x);
     const float reach = min(perDepth * max(at.coordinate.z, 0.0f), tile.filterReach);
     Lookup searched = at;
-    searched.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + reach * widest);
+    searched.coordinate.z -= shared::bendRoom(light, tile, at.divisor, slope, 1.0f + reach * widest);
     const float height = reading.casterHeight(searched, reach, perDepth, receiver.place);
     const float above = shareAbovePlane(light, receiver);
     if (height < 0.0f) return above;
     const float radius = min(perDepth * height, reach);
-    at.coordinate.z -= bendRoom(light, tile, at, slope, 1.0f + radius * widest);
+    at.coordinate.z -= shared::bendRoom(light, tile, at.divisor, slope, 1.0f + radius * widest);
     return above * reading.disc(at, radius, radius / perDepth, receiver.place);
   }
-  at.coordinate.z -= bendRoom(light, tile, at, slope, 0.5f * static_cast<float>(light.filterSize + 1));
+  at.coordinate.z -= shared::bendRoom(light, tile, at.divisor, slope, 0.5f * static_cast<float>(light.filterSize + 1));
   return reading.kernel(place, at.coordinate.z, light.filterSize);
 }
 
@@ -292,7 +211,7 @@ float layerValue(const Layer& layer, const AskedPoint& receiver) {
 } // namespace
 
 Lookup lookupIn(const LightData& light, const TileData& tile, const AskedPoint& receiver) {
-  const vec4 p(movedReceiver(light, tile, receiver), 1.0f);
+  const vec4 p(shared::movedReceiver(light, tile, receiver.relative, receiver.normal, receiver.toLight), 1.0f);
   Lookup at;
   at.coordinate =
       vec3(dot(tile.atlasFromRelative[0], p), dot(tile.atlasFromRelative[1], p), dot(tile.atlasFromRelative[2], p));

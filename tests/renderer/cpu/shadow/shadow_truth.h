@@ -20,12 +20,6 @@ struct TileChoice {
   bool covered = false;
 };
 
-bool isParallel(const shared::TileData& tile);
-glm::vec3 movedReceiver(const shared::LightData& light, const shared::TileData& tile, const AskedPoint& receiver);
-glm::vec2 receiverSlope(const shared::TileData& tile, const AskedPoint& receiver, const glm::vec3& lightPosition);
-glm::vec2 comparedSlope(const shared::LightData& light, const shared::TileData& tile, const AskedPoint& receiver);
-float bendRoom(const shared::LightData& light, const shared::TileData& tile, const Lookup& at, glm::vec2 slope,
-               float reach);
 Lookup lookupIn(const shared::LightData& light, const shared::TileData& tile, const AskedPoint& receiver);
 TileChoice chooseTile(const ShadowMaps& maps, int light, const AskedPoint& receiver);
 float shadowVisibility(const ShadowMaps& maps, int light, const AskedPoint& receiver);
