@@ -78,7 +78,7 @@ void discardMasked() {
   alpha *= MASK_TEXEL.a;
 #endif
 #ifdef ALPHA_DITHER
-  alpha *= 1.0 - material.passing.x;
+  alpha *= 1.0 - material.transmission;
 #endif
   if (alpha < leastAlpha(material)) discard;
 #endif
