@@ -19,8 +19,7 @@ Result<BakeReport> askForBake(const Remote& remote, const SceneBundle& bundle, s
                               ProgressLine& progress) {
   const std::string body = toJson(spec).dump();
   const auto show = [&](const ServerEvent& event) { showProgress(event, progress); };
-  const auto text =
-      askWithEvents(remote, bundle, id, {"/bakes", body, "baking on the server"}, "bake", show, progress);
+  const auto text = askWithEvents(remote, bundle, id, {"/bakes", body, "baking on the server"}, "bake", show, progress);
   if (!text) return text.problems();
   auto report = readBakeReport(*text);
   if (!report) return Problem{ProblemCode::internal, remote.url, "The reply is not a bake.", "", ""};

@@ -101,9 +101,9 @@ class TechniqueChoice(TypedDict, total=False):
         shadowMap or rayTraced; `spec` names it too, so that requesting `spec` again draws the same. auto = for each
         light rayTraced where that is estimated to cost at most twice its map, else shadowMap; shadowMap = depths
         seen from the light, filtered: fast, and as exact as its texels are fine; shadowVolume = stencilled shadow
-        volumes: exact and sharp, drawn by the device; rayTraced = rays for every pixel: exact, and soft where the
-        light has a size; lightMap = rays for every texel of the scene's surfaces, once, and a lookup in each frame:
-        soft where the light has a size, for static scenes.
+        volumes: exact and sharp, drawn by the device `gl` alone; rayTraced = rays for every pixel: exact, and soft
+        where the light has a size; lightMap = rays for every texel of the scene's surfaces, once, and a lookup in
+        each frame: soft where the light has a size, for static scenes.
     why:
         The reason, in a sentence.
     mapMilliseconds:

@@ -314,9 +314,9 @@ class Shadow:
         a light that sets a filter or a bias gets a map. The report says what auto chose, and why. auto = for each
         light rayTraced where that is estimated to cost at most twice its map, else shadowMap; shadowMap = depths
         seen from the light, filtered: fast, and as exact as its texels are fine; shadowVolume = stencilled shadow
-        volumes: exact and sharp, drawn by the device; rayTraced = rays for every pixel: exact, and soft where the
-        light has a size; lightMap = rays for every texel of the scene's surfaces, once, and a lookup in each frame:
-        soft where the light has a size, for static scenes. Default: "auto".
+        volumes: exact and sharp, drawn by the device `gl` alone; rayTraced = rays for every pixel: exact, and soft
+        where the light has a size; lightMap = rays for every texel of the scene's surfaces, once, and a lookup in
+        each frame: soft where the light has a size, for static scenes. Default: "auto".
     strength:
         0 = no shadow, 1 = no direct light in shadow. Default: 1.0.
     color:

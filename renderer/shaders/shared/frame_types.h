@@ -144,10 +144,18 @@ struct InstanceData {
   vec4 normalFromLocal[3];   // rows, xyz; w: as named below
 #ifdef __cplusplus
   // The number of a draw's first triangle; the index of the node.
-  float& firstTriangle() { return normalFromLocal[1].w; }
-  float& node() { return normalFromLocal[2].w; }
-  float& receiverGroup() { return normalFromLocal[0].w; }
-  float receiverGroup() const { return normalFromLocal[0].w; }
+  float& firstTriangle() {
+    return normalFromLocal[1].w;
+  }
+  float& node() {
+    return normalFromLocal[2].w;
+  }
+  float& receiverGroup() {
+    return normalFromLocal[0].w;
+  }
+  float receiverGroup() const {
+    return normalFromLocal[0].w;
+  }
 #endif
 };
 

@@ -5,9 +5,9 @@
 #include "renderer/shaders/shared/frame_types.h"
 
 /// What shaders and C++ both compute, from one text, here a number at a time. The texts use what GLSL and GLM both have
-/// and these names: `Real`, a number; `select(condition, yes, no)`, where numbers may differ in the condition; `along(row, place)`. They
-/// branch only on what is the same for a whole frame, light or material, so that C++ may take them with `Real` for many
-/// numbers at once (renderer/cpu/lanes/shared_functions-inl.h).
+/// and these names: `Real`, a number; `select(condition, yes, no)`, where numbers may differ in the condition;
+/// `along(row, place)`. They branch only on what is the same for a whole frame, light or material, so that C++ may take
+/// them with `Real` for many numbers at once (renderer/cpu/lanes/shared_functions-inl.h).
 namespace gnomon::shared {
 
 using glm::abs;

@@ -44,9 +44,9 @@ GNOMON_FUNCTION Real chebyshev(Real mean, Real square, Real depth, Real leastVar
   return select(depth <= mean, Real(1.0f), variance / (variance + beyond * beyond));
 }
 
-// The least share that lies before `depth`, from four moments: the three-point distribution with a point at `depth` that
-// has these moments. (Peters, Klein, "Moment Shadow Mapping", I3D 2015; the bias for 32-bit floats and depths in -1..1
-// from Peters et al., "Improved Moment Shadow Maps", JCGT 2017.)
+// The least share that lies before `depth`, from four moments: the three-point distribution with a point at `depth`
+// that has these moments. (Peters, Klein, "Moment Shadow Mapping", I3D 2015; the bias for 32-bit floats and depths in
+// -1..1 from Peters et al., "Improved Moment Shadow Maps", JCGT 2017.)
 GNOMON_FUNCTION Real hamburger(vec4 moments, Real depth) {
   Real mx = mix(moments.x, 0.0f, 3e-7f);
   Real my = mix(moments.y, 0.375f, 3e-7f);

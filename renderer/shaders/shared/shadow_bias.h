@@ -38,9 +38,9 @@ GNOMON_FUNCTION vec2 comparedSlope(LightData light, TileData tile, vec3 relative
 }
 
 // By how much a surface may rise over the receiver's plane within a texel and not shadow it, z: where it bends by up to
-// kBendAngle radians, but no more than the plane itself rises on kBendTexels; and what a normal of 16 bits an axis may lean
-// on the way to the farthest texel, `reach` away, which is more where the light all but grazes the surface. `divisor`: as
-// in Lookup.
+// kBendAngle radians, but no more than the plane itself rises on kBendTexels; and what a normal of 16 bits an axis may
+// lean on the way to the farthest texel, `reach` away, which is more where the light all but grazes the surface.
+// `divisor`: as in Lookup.
 GNOMON_CONSTANT(kBendAngle, 0.1f);
 GNOMON_CONSTANT(kBendTexels, 0.3f);
 GNOMON_CONSTANT(kNormalRounding, 2e-4f);
