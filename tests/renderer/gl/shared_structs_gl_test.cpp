@@ -36,6 +36,9 @@ const std::vector<Member> kFrame{
     MEMBER(FrameData, ambient),
     MEMBER(FrameData, exposureScale),
     MEMBER(FrameData, ahead),
+    MEMBER(FrameData, padding1),
+    MEMBER(FrameData, padding2),
+    MEMBER(FrameData, padding3),
 };
 const std::vector<Member> kMaterial{
     MEMBER(MaterialData, baseColorFactor),   MEMBER(MaterialData, emissiveFactor),
