@@ -31,7 +31,8 @@ json sun() {
 }
 
 CostPoint inTheCity(const std::string& label, double x, const json& spec, const json& patch) {
-  return {label, x, merged(merged(spec, {{"lights", {sun()}}}), patch), city};
+  const json mapped = {{"lights", {sun()}}, {"shadow", {{"technique", "shadowMap"}}}};
+  return {label, x, merged(merged(spec, mapped), patch), city};
 }
 
 CostSeries againstCascades(const json& spec) {

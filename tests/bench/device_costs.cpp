@@ -98,9 +98,10 @@ const std::vector<Setting>& settings() {
       {"exact", {{"antialiasing", "none"}, {"shadow", {{"technique", "rayTraced"}}}}, 1},
       {"shadow map",
        {{"antialiasing", "none"},
-        {"shadow", {{"cascadeCount", 4}, {"filter", {{"type", "pcf"}, {"size", 5}}}}},
+        {"shadow", {{"technique", "shadowMap"}, {"cascadeCount", 4}, {"filter", {{"type", "pcf"}, {"size", 5}}}}},
         {"atlas", {{"baseSize", 2048}}}},
        1},
+      {"map, 4x", {{"shadow", {{"technique", "shadowMap"}}}}, 4},
       {"defaults", json::object(), 4},
   };
   return all;

@@ -33,7 +33,7 @@ std::string specJson(const Size& size, int samples, const std::string& filter) {
               {"camera", {{"node", "camera"}}},
               {"lights", {{{"type", "directional"}, {"sun", {{"azimuthDegrees", 150}, {"elevationDegrees", 35}}}}}},
               {"antialiasing", samples > 1 ? "msaa4x" : "none"},
-              {"shadow", {{"cascadeCount", 4}, {"filter", Json::parse(filter)}}},
+              {"shadow", {{"technique", "shadowMap"}, {"cascadeCount", 4}, {"filter", Json::parse(filter)}}},
               {"output", {{"format", "png"}, {"pngCompression", 1}}}}
       .dump();
 }

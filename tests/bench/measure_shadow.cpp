@@ -39,7 +39,7 @@ struct Way {
 /// Ways to make the shadow; each is laid over the spec.
 std::vector<Way> ways() {
   const nlohmann::json hard = {{"type", "hard"}};
-  return {{"default settings", nlohmann::json::object()},
+  return {{"default map", {{"technique", "shadowMap"}}},
           {"hard map", {{"technique", "shadowMap"}, {"filter", hard}}},
           {"hard map, XLarge", {{"technique", "shadowMap"}, {"filter", hard}, {"size", "XLarge"}}},
           {"rayTraced", {{"technique", "rayTraced"}}},

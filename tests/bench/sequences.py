@@ -43,7 +43,7 @@ def one_by_one(address, scene, spec, patches):
     pictures, previous = [], {"near": 1e-3, "far": 1e6}
     start = time.perf_counter()
     for patch in patches:
-        shadow = {"stabilization": "projectionSnapping", "depthRange": {"previous": previous}}
+        shadow = {"technique": "shadowMap", "stabilization": "projectionSnapping", "depthRange": {"previous": previous}}
         body = spec | {"camera": spec["camera"] | patch["camera"], "shadow": shadow}
         content = ask(connection, f"/v1/scenes/{scene}/frames", body, "multipart/mixed")
         report, picture = content.split(b"\r\n\r\n", 2)[1:]

@@ -35,7 +35,7 @@ std::vector<Way> waysCalled(const std::vector<std::string>& names) {
                         {"lightMap", {{"technique", "lightMap"}}},
                         {"pcss", {{"filter", {{"type", "pcss"}}}}},
                         {"pcss, size XLarge", {{"filter", {{"type", "pcss"}}}, {"size", "XLarge"}}},
-                        {"pcf 5", {{"filter", {{"type", "pcf"}, {"size", 5}}}}}};
+                        {"pcf 5", {{"technique", "shadowMap"}, {"filter", {{"type", "pcf"}, {"size", 5}}}}}};
   std::erase_if(ways, [&](const Way& way) { return !names.empty() && std::ranges::count(names, way.name) == 0; });
   return ways;
 }

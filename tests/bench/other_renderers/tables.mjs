@@ -20,8 +20,8 @@ function commonTable({ rows }) {
 }
 
 const kColumns = {
-  'Gnomon, cpu': ['default settings', 'hard map', 'rayTraced'],
-  'Gnomon, gl': ['default settings', 'hard map', 'rayTraced', 'shadowVolume'],
+  'Gnomon, cpu': ['default map', 'hard map', 'rayTraced'],
+  'Gnomon, gl': ['default map', 'hard map', 'rayTraced', 'shadowVolume'],
   'three.js': ['DirectionalLight as constructed', 'DirectionalLight, box around the scene', 'DirectionalLight tuned',
     'SunLight as constructed', 'SunLight tuned'],
 };

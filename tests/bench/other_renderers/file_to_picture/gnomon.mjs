@@ -9,7 +9,7 @@ import { runOnce } from './once.mjs';
 
 const kTechniques = [
   { name: 'exact', shadows: 'exact', shadow: { technique: 'rayTraced' } },
-  { name: 'shadow map', shadows: '4 cascades', shadow: {} },
+  { name: 'shadow map', shadows: '4 cascades', shadow: { technique: 'shadowMap' } },
 ];
 
 const specText = (scene, frame, shadow) => Buffer.from(JSON.stringify(specOf(scene, frame, { shadow })));

@@ -8,7 +8,7 @@ import { specOf } from './scenes.mjs';
 
 const kTechniques = [
   { name: 'exact', says: '`rayTraced`', shadow: { technique: 'rayTraced' } },
-  { name: 'shadow map', says: 'defaults', shadow: {} },
+  { name: 'shadow map', says: 'defaults', shadow: { technique: 'shadowMap' } },
 ];
 
 // A server on a free port of this machine.
