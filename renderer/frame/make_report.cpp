@@ -143,11 +143,6 @@ std::string sharpNote(const Light& light) {
   return "its size is ignored: technique " + std::string(spell(light.shadow->technique)) + " draws sharp shadows only";
 }
 
-bool hasPlan(const ShadowPlan& plan, int light) {
-  return std::any_of(plan.lights.begin(), plan.lights.end(),
-                     [&](const PlannedLight& each) { return each.light == light; });
-}
-
 /// Settings that were asked for and that nothing reads.
 std::string unusedNote(const Light& light, bool mapped) {
   std::string names;
@@ -185,13 +180,19 @@ void addTiles(const ResolvedFrame& frame, const ShadowPlan& plan, const PlannedL
 
 } // namespace
 
+bool isPlanned(const ShadowPlan& plan, int light) {
+  return std::any_of(plan.lights.begin(), plan.lights.end(),
+                     [&](const PlannedLight& each) { return each.light == light; });
+}
+
 std::array<double, 2> askedDepths(const CameraView& view, const DepthSpan& depths) {
   if (depths.empty()) return {};
   return {depths.nearest + view.ahead, depths.farthest + view.ahead};
 }
 
 std::vector<LightReport> lightReports(const ResolvedFrame& frame, const FramePlans& plans,
-                                      const PredictedErrors& errors, std::span<const int> layeredLights) {
+                                      const PredictedErrors& errors, std::span<const int> layeredLights,
+                                      const PredictedErrors& wholeErrors) {
   const std::vector<Light>& lights = *frame.spec.lights;
   std::vector<LightReport> reports;
   for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -207,12 +208,18 @@ std::vector<LightReport> lightReports(const ResolvedFrame& frame, const FramePla
   for (const int layered : layeredLights) {
     LightReport& report = reports[static_cast<std::size_t>(layered)];
     const Light& light = lights[static_cast<std::size_t>(layered)];
-    const bool mapped = hasPlan(plans.drawn, layered) || hasPlan(plans.whole, layered);
+    const bool mapped = isPlanned(plans.drawn, layered) || isPlanned(plans.whole, layered);
     report.shadowed = true;
     report.note = joined({sharpNote(light), unusedNote(light, mapped)});
   }
-  for (const PlannedLight& planned : plans.whole.lights) {
-    addTiles(frame, plans.whole, planned, {}, reports[static_cast<std::size_t>(planned.light)]);
+  for (std::size_t i = 0; i < plans.whole.lights.size(); ++i) {
+    const PlannedLight& planned = plans.whole.lights[i];
+    LightReport& report = reports[static_cast<std::size_t>(planned.light)];
+    addTiles(frame, plans.whole, planned, wholeErrors.tiles, report);
+    if (!wholeErrors.lights.empty()) report.predictedError = wholeErrors.lights[i];
+    if (planned.tileCount == 0 && planned.noTexels == NoTexels::none) {
+      report.note = joined({planned.note, report.note});
+    }
   }
   for (std::size_t i = 0; i < plans.drawn.lights.size(); ++i) {
     const PlannedLight& planned = plans.drawn.lights[i];

@@ -33,11 +33,14 @@ LightMapReport lightMapReport(const LightMapCache::Found& found);
 /// What happened, in the words of protocol/report/frame_report.h.
 FrameReport makeReport(FrameOutcome outcome);
 
+bool isPlanned(const ShadowPlan& plan, int light);
+
 /// What a plan decided about the spec's lights: everything but counts and times. `layeredLights`: those whose shadow
-/// comes from rays or shadow volumes, or also does.
-/// `errors`: of plans.drawn.
+/// comes from rays or shadow volumes, or also does. `errors`: of plans.drawn; `wholeErrors`: of plans.whole, where they
+/// are known.
 std::vector<LightReport> lightReports(const ResolvedFrame& frame, const FramePlans& plans,
-                                      const PredictedErrors& errors, std::span<const int> layeredLights);
+                                      const PredictedErrors& errors, std::span<const int> layeredLights,
+                                      const PredictedErrors& wholeErrors = {});
 
 /// From the eye that was asked for; 0 0 = nothing in view.
 std::array<double, 2> askedDepths(const CameraView& view, const DepthSpan& depths);

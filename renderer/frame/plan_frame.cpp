@@ -13,10 +13,12 @@
 namespace gnomon {
 namespace {
 
+/// Of lights that `other` does not plan.
 void addCasters(const ShadowPlan& plan, const ResolvedFrame& frame, const Scene& scene, const FrameGeometry& geometry,
-                std::vector<LightReport>& lights) {
+                std::vector<LightReport>& lights, const ShadowPlan& other = {}) {
   const SceneView& view = scene.scenes[static_cast<std::size_t>(frame.scene)];
   for (const PlannedLight& planned : plan.lights) {
+    if (isPlanned(other, planned.light)) continue;
     LightReport& light = lights[static_cast<std::size_t>(planned.light)];
     for (std::size_t i = 0; i < light.tiles.size(); ++i) {
       const ShadowTile& tile = plan.tiles[static_cast<std::size_t>(planned.firstTile) + i];
@@ -66,8 +68,9 @@ Result<PlanReport> planFrame(const ScenePtr& loaded, const FrameSpec& spec, cons
   report.spec = frame.spec;
   report.depthRange = askedDepths(frame.view, input.receivers.range);
   report.atlasSize = {plan.atlasWidth, plan.atlasHeight};
-  report.lights = lightReports(frame, plans, errors, settled->layered);
+  report.lights = lightReports(frame, plans, errors, settled->layered, predictErrors(plans.wholeInput, plans.whole));
   addCasters(plan, frame, scene, geometry, report.lights);
+  addCasters(plans.whole, frame, scene, geometry, report.lights, plan);
   report.predictedError = errors.all;
   report.warnings = loaded->summary.warnings;
   report.warnings.insert(report.warnings.end(), frame.warnings.begin(), frame.warnings.end());

@@ -124,10 +124,11 @@ PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, SeenDept
 }
 
 FramePlans framePlans(const ResolvedFrame& frame, const SceneView& scene, SeenDepths seen, int maxTextureSize) {
-  FramePlans plans{planInput(frame, scene, std::move(seen), maxTextureSize), {}, {}};
+  FramePlans plans{planInput(frame, scene, std::move(seen), maxTextureSize), {}, {}, {}};
   const std::vector<int> mapped = mappedLights(frame);
   if (mapped.size() < plans.input.casters.size()) {
-    plans.whole = planShadows(plans.input);
+    plans.wholeInput = plans.input;
+    plans.whole = planShadows(plans.wholeInput);
     std::erase_if(plans.input.casters, [&](const ShadowCaster& caster) {
       return !std::binary_search(mapped.begin(), mapped.end(), caster.light);
     });

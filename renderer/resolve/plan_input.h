@@ -40,9 +40,10 @@ PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, SeenDept
 
 /// A frame's shadow maps.
 struct FramePlans {
-  PlanInput input;  ///< of `drawn`
-  ShadowPlan drawn; ///< of mappedLights
-  ShadowPlan whole; ///< of plannedLights, where those are more; else empty
+  PlanInput input;      ///< of `drawn`
+  ShadowPlan drawn;     ///< of mappedLights
+  PlanInput wholeInput; ///< of `whole`
+  ShadowPlan whole;     ///< of plannedLights, where those are more; else empty
 };
 FramePlans framePlans(const ResolvedFrame& frame, const SceneView& scene, SeenDepths seen, int maxTextureSize);
 

@@ -58,7 +58,9 @@ TEST(ChosenTechnique, IsTheSameInAPlan) {
   ASSERT_TRUE(plan);
   ASSERT_TRUE(plan->lights.at(0).choice);
   EXPECT_EQ(plan->lights[0].choice->technique, usualChoice());
-  EXPECT_EQ(plan->lights[0].tiles.size(), 4u);
+  ASSERT_EQ(plan->lights[0].tiles.size(), 4u);
+  EXPECT_GT(plan->lights[0].tiles[0].casterTriangles, 0u) << "counted whether it is drawn or not";
+  EXPECT_TRUE(plan->lights[0].tiles[0].predictedError);
 }
 
 TEST(ChosenTechnique, IsAMapForLeavesButWhereOpenGlDrawsItInSoftware) {

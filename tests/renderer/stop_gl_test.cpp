@@ -69,7 +69,7 @@ void PrintTo(const Case& of, std::ostream* out) {
 
 Json lamp(double x) {
   return {{"type", "point"}, {"position", {x, 12, 4}}, {"intensity", 4000},
-          {"range", 200},    {"radius", 0.5},          {"shadow", {{"size", "Large"}}}};
+          {"range", 200},    {"radius", 0.5},          {"shadow", {{"technique", "shadowMap"}, {"size", "Large"}}}};
 }
 
 Json specWith(const Json& shadow, const Json& patch = Json::object()) {
@@ -142,10 +142,11 @@ const std::vector<Case>& cases() {
       {"RayTraced", specWith({{"technique", "rayTraced"}, {"raySamples", 256}})},
       {"LightMap", specWith({{"technique", "lightMap"}, {"lightMap", {{"size", 1024}, {"samples", 256}}}}), "long_row"},
       {"ShadowVolume", specWith({{"technique", "shadowVolume"}}, kMany), "long_row", true},
-      {"ErrorViews", specWith({{"size", "Large"}}, {{"width", 640},
-                                                    {"height", 360},
-                                                    {"views", {"error", "edgeDistance", "reference", "color"}},
-                                                    {"debug", {{"predictEdges", true}}}})},
+      {"ErrorViews", specWith({{"technique", "shadowMap"}, {"size", "Large"}},
+                              {{"width", 640},
+                               {"height", 360},
+                               {"views", {"error", "edgeDistance", "reference", "color"}},
+                               {"debug", {{"predictEdges", true}}}})},
   };
   return all;
 }
@@ -182,7 +183,7 @@ TEST(Stopping, EndsLoading) {
 
 TEST(Stopping, EndsAShimmer) {
   const ScenePtr scene = testing::generatedScene("city");
-  const FrameSpec spec = specOf(specWith({{"size", "XLarge"}}));
+  const FrameSpec spec = specOf(specWith({{"technique", "shadowMap"}, {"size", "XLarge"}}));
   const std::vector<Camera> path(6, spec.camera);
   onAnotherThread([&] {
     Renderer renderer = freshRenderer();

@@ -23,7 +23,7 @@ gnomon.render("a.glb", {"width": 3}, server="http://localhost:8080", key="secret
 gnomon.render("a.glb", spec.FrameSpec(width=3), lights=[spec.Light(sun=spec.Sun(1, 2)), {"sun": {}}], exposure=1)
 gnomon.render("a.glb", widht=3)  # Unexpected keyword argument "widht"
 gnomon.render("a.glb", width="3")  # Argument "width" to "render" has incompatible type "str"
-gnomon.render("a.glb", views=["color"])  # List item 0 has incompatible type
+gnomon.render("a.glb", views=["colr"])  # List item 0 has incompatible type
 gnomon.render("a.glb", sun="135,40")  # Argument "sun" to "render" has incompatible type "str"
 gnomon.render("a.glb", shadow=spec.Shadow(cascades=3))  # Unexpected keyword argument "cascades"
 
