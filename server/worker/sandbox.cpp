@@ -142,6 +142,11 @@ Problem refused(int error) {
 }
 
 /// 0, or an error number.
+/// libseccomp's own macros are C's.
+scmp_arg_cmp where(unsigned argument, scmp_compare compare, scmp_datum_t a, scmp_datum_t b = 0) {
+  return {argument, compare, a, b};
+}
+
 int allow(scmp_filter_ctx filter, Seal kind) {
   int error = 0;
   const auto add = [&](auto... rule) {
@@ -151,17 +156,17 @@ int allow(scmp_filter_ctx filter, Seal kind) {
   if (kind == Seal::drivers) {
     for (const int call : kOfDrivers) add(SCMP_ACT_ALLOW, call, 0u);
   } else { // glibc's fstat()
-    add(SCMP_ACT_ALLOW, SCMP_SYS(newfstatat), 1u, SCMP_A3(SCMP_CMP_EQ, AT_EMPTY_PATH));
+    add(SCMP_ACT_ALLOW, SCMP_SYS(newfstatat), 1u, where(3, SCMP_CMP_EQ, AT_EMPTY_PATH));
   }
   // Threads, not processes. The flags of clone3 lie in memory, where a filter can't see them: glibc then uses clone.
   add(SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(clone3), 0u);
-  add(SCMP_ACT_ALLOW, SCMP_SYS(clone), 1u, SCMP_A0(SCMP_CMP_MASKED_EQ, CLONE_THREAD, CLONE_THREAD));
+  add(SCMP_ACT_ALLOW, SCMP_SYS(clone), 1u, where(0, SCMP_CMP_MASKED_EQ, CLONE_THREAD, CLONE_THREAD));
   // Signals to itself, which abort() needs.
-  add(SCMP_ACT_ALLOW, SCMP_SYS(tgkill), 1u, SCMP_A0(SCMP_CMP_EQ, static_cast<scmp_datum_t>(::getpid())));
-  add(SCMP_ACT_ALLOW, SCMP_SYS(socketpair), 1u, SCMP_A0(SCMP_CMP_EQ, AF_UNIX));
-  add(SCMP_ACT_ALLOW, SCMP_SYS(prctl), 1u, SCMP_A0(SCMP_CMP_EQ, PR_SET_NAME));
+  add(SCMP_ACT_ALLOW, SCMP_SYS(tgkill), 1u, where(0, SCMP_CMP_EQ, static_cast<scmp_datum_t>(::getpid())));
+  add(SCMP_ACT_ALLOW, SCMP_SYS(socketpair), 1u, where(0, SCMP_CMP_EQ, AF_UNIX));
+  add(SCMP_ACT_ALLOW, SCMP_SYS(prctl), 1u, where(0, SCMP_CMP_EQ, PR_SET_NAME));
   // Reads its limits; only its own, and sets none.
-  add(SCMP_ACT_ALLOW, SCMP_SYS(prlimit64), 2u, SCMP_A0(SCMP_CMP_EQ, 0), SCMP_A2(SCMP_CMP_EQ, 0));
+  add(SCMP_ACT_ALLOW, SCMP_SYS(prlimit64), 2u, where(0, SCMP_CMP_EQ, 0), where(2, SCMP_CMP_EQ, 0));
   return -error;
 }
 

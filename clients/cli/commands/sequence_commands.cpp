@@ -266,9 +266,9 @@ int runTurntable(SequenceOptions options) {
   auto maker = makerFor(options.where);
   if (!maker) return printProblems(maker.problems());
   auto progress = ProgressLine::onTerminal();
-  const auto fail = [&](const Problems& problems) {
+  const auto fail = [&, &places = origins](const Problems& problems) {
     progress.finish();
-    return printProblems(problems, origins);
+    return printProblems(problems, places);
   };
   if (auto opened = openScene(options, *spec, *maker, progress); !opened) return fail(opened.problems());
   const auto orbit = steadyOrbit(*maker, *spec, progress);

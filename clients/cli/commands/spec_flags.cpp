@@ -228,7 +228,7 @@ void addWhereFlags(CLI::App& command, WhereOptions& where, SpecArguments& argume
 }
 
 Result<Remote> remoteOf(const WhereOptions& where) {
-  constexpr std::size_t kLargestFile = 4096;
+  constexpr std::size_t kLargestKeyFile = 4096;
   Remote remote;
   remote.url = where.server;
   remote.headers = where.headers;
@@ -236,7 +236,7 @@ Result<Remote> remoteOf(const WhereOptions& where) {
   remote.patience = std::chrono::seconds(where.patienceSeconds);
   std::string place = "GNOMON_KEY";
   if (!where.keyFile.empty()) {
-    const auto text = readText(where.keyFile, kLargestFile);
+    const auto text = readText(where.keyFile, kLargestKeyFile);
     if (!text) return text.problems();
     place = where.keyFile;
     remote.key = trimmed(std::string_view(*text).substr(0, text->find_first_of("\r\n")));

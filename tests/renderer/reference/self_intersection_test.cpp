@@ -46,7 +46,7 @@ TEST_P(FlatMesh, NeverShadowsItselfHoweverTheLightGrazesIt) {
   for (const double tilt : {0.0, 17.0, 60.0, 90.0, 143.0}) {
     GlbBuilder builder;
     const double bent = byNode ? 0.0 : tilt;
-    addGrid(builder, 24, [&](double x, double z) { return tilted(glm::dvec3(x, 0, z) * size, bent); });
+    addGrid(builder, 24, [&, scale = size](double x, double z) { return tilted(glm::dvec3(x, 0, z) * scale, bent); });
     json& node = builder.json["nodes"][0];
     node["translation"] = {distance, 0.3 * distance, -0.7 * distance};
     if (byNode) {
