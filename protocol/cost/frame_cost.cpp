@@ -56,10 +56,6 @@ constexpr std::array kEncodingCosts{
 };
 static_assert(rowsAreComplete(kEncodingCosts, &EncodingCost::format));
 
-double pixelsOf(const FrameSpec& spec) {
-  return static_cast<double>(spec.width) * spec.height;
-}
-
 std::vector<Light> lightsOf(const FrameSpec& spec, const SceneCounts& scene) {
   std::vector<Light> own;
   for (const LightType type : scene.lights) own.push_back({.type = type});
@@ -134,11 +130,9 @@ FrameCost frameCost(const FrameSpec& spec, const SceneCounts& scene, DeviceKind 
   cost[FramePart::survey] =
       static_cast<double>(scene.triangles) * kTriangle + pixels * samplesOf(spec.antialiasing) * kSample;
   for (const int index : shadowingLights(lights, spec.shadowLightPolicy)) {
-    Shadow& shadow = *lights[static_cast<std::size_t>(index)].shadow;
-    const Light& light = lights[static_cast<std::size_t>(index)];
-    if (shadow.technique == ShadowTechnique::auto_) {
-      shadow.technique = chooseTechnique(light, spec, scene, device).technique;
-    }
+    Light& light = lights[static_cast<std::size_t>(index)];
+    ShadowTechnique& technique = light.shadow->technique;
+    if (technique == ShadowTechnique::auto_) technique = chooseTechnique(light, spec, scene, device).technique;
     addLayer(light, spec, scene, cost);
   }
   double lookups = 0;

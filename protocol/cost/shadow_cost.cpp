@@ -65,10 +65,6 @@ double mapFactor(DeviceKind device) {
   return 1;
 }
 
-double picturePixels(const FrameSpec& spec) {
-  return static_cast<double>(spec.width) * spec.height;
-}
-
 std::string ratioText(double ratio) {
   return shortNumber(std::round(ratio * 100) / 100);
 }
@@ -78,6 +74,10 @@ std::string ratioText(double ratio) {
 DeviceKind kindOf(const RendererInfo& info) {
   if (info.device == DeviceChoice::cpu) return DeviceKind::processor;
   return info.software ? DeviceKind::softwareGl : DeviceKind::gpu;
+}
+
+double pixelsOf(const FrameSpec& spec) {
+  return static_cast<double>(spec.width) * spec.height;
 }
 
 double tileCost(const Light& light, const FrameSpec& spec, std::uint64_t triangles) {
@@ -101,14 +101,14 @@ double rayCost(const Light& light, const FrameSpec& spec, const SceneCounts& sce
   if (hasSize(light)) {
     pixel *= 1 + kPenumbra * std::log2(1 + triangles) * (light.shadow->raySamples - 1) / 15;
   }
-  return picturePixels(spec) * pixel;
+  return pixelsOf(spec) * pixel;
 }
 
 TechniqueChoice chooseTechnique(const Light& light, const FrameSpec& spec, const SceneCounts& scene,
                                 DeviceKind device) {
   constexpr double kMillisecond = 1e6;
-  const double lookups = picturePixels(spec) * lookupOfPixel(light.shadow->filter) *
-                         (samplesOf(spec.antialiasing) > 1 ? kSampledLookups : 1.0);
+  const double lookups =
+      pixelsOf(spec) * lookupOfPixel(light.shadow->filter) * (samplesOf(spec.antialiasing) > 1 ? kSampledLookups : 1.0);
   const double map = mapFactor(device) * (tileCost(light, spec, scene.triangles) + lookups);
   const double rays = rayCost(light, spec, scene);
   TechniqueChoice choice{ShadowTechnique::rayTraced, {}, map / kMillisecond, rays / kMillisecond};

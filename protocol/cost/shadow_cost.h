@@ -20,6 +20,8 @@ struct SceneCounts {
 enum class DeviceKind { processor, softwareGl, gpu };
 DeviceKind kindOf(const RendererInfo& info);
 
+double pixelsOf(const FrameSpec& spec);
+
 /// Of drawing all tiles of `light` as if it showed in all of the picture.
 double tileCost(const Light& light, const FrameSpec& spec, std::uint64_t triangles);
 /// Of reading a map for one pixel.

@@ -161,8 +161,8 @@ void Dispatcher::finish(const TicketPtr& ticket, TaskResult result) {
 }
 
 double Dispatcher::milliseconds(const FrameSpec& spec, const SceneCounts& scene) const {
+  const FrameCost cost = frameCost(spec, scene, kindOf(info()));
   const Lock lock(mutex_);
-  const FrameCost cost = frameCost(spec, scene, kindOf(info_));
   return std::inner_product(cost.parts.begin(), cost.parts.end(), costFactors_.parts.begin(), 0.0);
 }
 
