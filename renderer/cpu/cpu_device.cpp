@@ -86,7 +86,8 @@ class CpuDevice : public Device {
 Result<std::unique_ptr<Device>> createCpuDevice(const CpuOptions& options) {
   if (cpu::instructionSets().empty()) {
     return Problem{ProblemCode::backend, "", "This processor lacks instructions that the device `cpu` is made of.",
-                   "SSE4.2, AES and PCLMULQDQ", cpuName()};
+                   HWY_TARGETS == HWY_STATIC_TARGET ? spelledTarget(HWY_STATIC_TARGET) : "SSE4.2, AES and PCLMULQDQ",
+                   cpuName()};
   }
   const auto target = chosenTarget();
   if (!target) return target.problems();
