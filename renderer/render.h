@@ -14,17 +14,14 @@
 #include "protocol/spec/limits.h"
 #include "renderer/charts/evaluation_chart.h"
 #include "renderer/charts/evaluation_csv.h"
-#include "renderer/core/progress.h"
 #include "renderer/core/stop.h"
 #include "renderer/device/device.h"
 #include "renderer/evaluation/evaluate.h"
 #include "renderer/evaluation/quality.h"
 #include "renderer/export/bake_file.h"
 #include "renderer/export/sensor_pictures.h"
-#include "renderer/frame/bake_listener.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/light_map_store.h"
-#include "renderer/frame/plan_frame.h"
 #include "renderer/image/exr_decode.h"
 #include "renderer/image/i420_encode.h"
 #include "renderer/image/image.h"
@@ -109,8 +106,8 @@ class Renderer {
   /// Shimmer of `spec`, its camera replaced by each one of the path in turn (at least two); each frame is surveyed,
   /// planned and cast as for a picture. Where a depth range has a `previous`, each frame takes the one before it for
   /// that. Points: a few thousand that the first camera sees, face the light, and are in sight of every other camera.
-  /// Shadows are taken at full strength. Techniques that trace are the same for a point from wherever it is seen.
-  /// A problem where there is no such point or no light that casts; `unavailable` where `progress` asked to stop.
+  /// Shadows are taken at full strength. A problem where there is no such point or no light that casts; `unavailable`
+  /// where `progress` asked to stop.
   Result<Shimmer> shimmer(const ScenePtr& scene, const FrameSpec& spec, std::span<const Camera> path,
                           const Progress& progress = {});
 

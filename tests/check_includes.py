@@ -12,7 +12,7 @@ Who may include whom, one way:
   protocol <- server/system <- server/redis, server/wire <- server/worker, server/http <- server/access, server/scenes <- server/dispatch
            <- server/metrics <- server/handlers <- server/process: of the server, only its workers see the renderer;
   clients see protocol and renderer/render.h. Beside that way, renderer/cpu and renderer/{gl,passes,shaders} implement
-  renderer/device: only devices.cpp knows them, by one header each.
+  renderer/device: only render.cpp knows them, by one header each.
 """
 
 import re

@@ -124,7 +124,7 @@ class Checklists(unittest.TestCase):
                   "    FilterTraits{FilterType::scratch, MapReadingKind::texels, MapReadingKind::disc, true, false},\n")
         self.assert_fine(kernel)
         # 3. Its control on the page is checked with the page; what reads kernels compiles as it is.
-        self.assert_fine('#include "renderer/shadow/edge_displacement.cpp"\n')
+        self.assert_fine('#include "renderer/shadow/predicted_error.cpp"\n')
 
     def test_a_technique(self):
         self.assertEqual(self.steps_of("To add a technique"), ["1", "2", "3"])

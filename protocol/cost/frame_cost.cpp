@@ -12,9 +12,8 @@ namespace gnomon {
 SceneCounts sceneCounts(const SceneSummary& summary) {
   SceneCounts counts{summary.triangles, {}};
   for (const LightSummary& light : summary.lights) {
-    counts.lights.push_back(light.type == "directional" ? LightType::directional
-                            : light.type == "spot"      ? LightType::spot
-                                                        : LightType::point);
+    const auto kind = std::ranges::find(kSpellings<LightType>, light.type, &Spelling::name);
+    if (kind != kSpellings<LightType>.end()) counts.lights.push_back(static_cast<LightType>(kind->value));
   }
   return counts;
 }

@@ -24,24 +24,12 @@ std::vector<Light> chosenLights(const FrameSpec& spec, std::span<const Light> of
 
 } // namespace
 
-ShadowSize usualSize(LightType type) {
-  switch (type) {
-    case LightType::directional:
-      return ShadowSize::Large;
-    case LightType::spot:
-      return ShadowSize::Medium;
-    case LightType::point:
-      return ShadowSize::Small;
-  }
-  return ShadowSize::Large;
-}
-
 std::vector<Light> lightsOf(const FrameSpec& spec, std::span<const Light> ofScene) {
   std::vector<Light> lights = chosenLights(spec, ofScene);
   for (Light& light : lights) {
     if (!light.color && !light.temperatureKelvin) light.color = Vec3{1, 1, 1};
     if (!light.shadow) light.shadow = spec.shadow;
-    if (!light.shadow->size) light.shadow->size = usualSize(light.type);
+    if (!light.shadow->size) light.shadow->size = traitsOf(light.type).usualSize;
   }
   return lights;
 }
@@ -51,7 +39,7 @@ bool shines(const Light& light) {
 }
 
 bool hasSize(const Light& light) {
-  return (light.type == LightType::directional ? light.angularDiameterDegrees : light.radius).value_or(0) > 0;
+  return (light.*traitsOf(light.type).size).value_or(0) > 0;
 }
 
 std::vector<int> shadowingLights(std::span<const Light> lights, ShadowLightPolicy policy) {
@@ -59,7 +47,7 @@ std::vector<int> shadowingLights(std::span<const Light> lights, ShadowLightPolic
   const bool firstOnly = policy == ShadowLightPolicy::first;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const Light& light = lights[i];
-    if (firstOnly && light.type != LightType::directional) continue;
+    if (firstOnly && !traitsOf(light.type).parallel) continue;
     if (light.shadow->enabled && shines(light)) throwing.push_back(static_cast<int>(i));
     if (firstOnly) break; // the first is the first, with a shadow or without
   }
@@ -77,16 +65,9 @@ std::vector<int> mappedLights(std::span<const Light> lights, const FrameSpec& sp
 }
 
 int tileCount(const Light& light) {
-  switch (light.type) {
-    case LightType::directional:
-      return light.shadow->cascadeCount;
-    case LightType::spot:
-      return light.outerConeDegrees <= kWidestTileDegrees ? 1
-                                                          : 5; // no cone narrower than a half space reaches the back
-    case LightType::point:
-      return 6;
-  }
-  return 0;
+  const LightTraits& kind = traitsOf(light.type);
+  if (kind.parallel) return light.shadow->cascadeCount;
+  return kind.hasCone && light.outerConeDegrees <= kWidestTileDegrees ? 1 : static_cast<int>(kind.cubeFaces);
 }
 
 int askedTileSize(ShadowSize size, ShadowImportance importance, int baseSize, int lightSize) {

@@ -13,9 +13,6 @@ namespace gnomon {
 /// set: their shadow is the frame's, a tile's size that of the light's type.
 std::vector<Light> lightsOf(const FrameSpec& spec, std::span<const Light> ofScene);
 
-/// Of one tile, where a request leaves it open.
-ShadowSize usualSize(LightType type);
-
 /// Gives off light: else it has no shadow to be seen.
 bool shines(const Light& light);
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <optional>
 #include <string_view>
 
 #include "protocol/spec/enum_rows.h"
@@ -74,6 +76,31 @@ static_assert(rowsAreComplete(kViewTraits, &ViewTraits::view));
 
 constexpr const ViewTraits& traitsOf(View view) {
   return kViewTraits[static_cast<std::size_t>(view)];
+}
+
+/// What a kind of light is and has: one row each, complete by static_assert.
+struct LightTraits {
+  LightType type;
+  bool parallel;                      ///< rays of one direction; else from a position, falling off with the distance
+  bool directed;                      ///< has a direction
+  bool hasCone;                       ///< shines within a cone about its direction
+  std::optional<double> Light::*size; ///< what gives it penumbras
+  std::size_t cubeFaces;              ///< that its shadow map may take; 0 = it takes cascades
+  ShadowSize usualSize;               ///< of one tile, where a request leaves it open
+};
+
+// clang-format off
+inline constexpr std::array kLightTraits{
+    //          type                    parallel directed cone   size                            faces usual size
+    LightTraits{LightType::directional, true,    true,    false, &Light::angularDiameterDegrees, 0,    ShadowSize::Large},
+    LightTraits{LightType::spot,        false,   true,    true,  &Light::radius,                 5,    ShadowSize::Medium}, // no cone below a half space reaches the back
+    LightTraits{LightType::point,       false,   false,   false, &Light::radius,                 6,    ShadowSize::Small},
+};
+// clang-format on
+static_assert(rowsAreComplete(kLightTraits, &LightTraits::type));
+
+constexpr const LightTraits& traitsOf(LightType type) {
+  return kLightTraits[static_cast<std::size_t>(type)];
 }
 
 /// What a shadow technique is and needs: one row each, complete by static_assert.

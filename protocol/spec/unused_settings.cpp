@@ -25,7 +25,7 @@ bool byMap(const Light&, bool mapped) {
 }
 
 bool byCascades(const Light& light, bool mapped) {
-  return mapped && light.type == LightType::directional;
+  return mapped && traitsOf(light.type).parallel;
 }
 
 const TechniqueTraits& techniqueOf(const Light& light) {
@@ -33,7 +33,7 @@ const TechniqueTraits& techniqueOf(const Light& light) {
 }
 
 constexpr std::array kSettings{
-    Setting{"size", [](const Light& light) { return light.shadow->size != usualSize(light.type); }, byMap},
+    Setting{"size", [](const Light& light) { return light.shadow->size != traitsOf(light.type).usualSize; }, byMap},
     Setting{"importance", differs<&Shadow::importance>, byMap},
     Setting{"cascadeCount", differs<&Shadow::cascadeCount>, byCascades},
     Setting{"partition", differs<&Shadow::partition>, byCascades},

@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "protocol/fields/field_checks.h"
-#include "protocol/spec/enum_rows.h"
 #include "protocol/spec/rules.h"
+#include "protocol/spec/traits.h"
 
 namespace gnomon {
 namespace {
@@ -170,7 +170,7 @@ void appendCameraRules(const Camera& camera, const std::string& pointer, std::ve
 void appendLightRules(const Light& light, std::size_t index, std::vector<BrokenRule>& broken) {
   const std::string pointer = "/lights/" + std::to_string(index);
   const std::string type = std::string(spell(light.type));
-  const bool directional = light.type == LightType::directional;
+  const LightTraits& kind = traitsOf(light.type);
 
   const auto require = [&](bool given, const char* name, std::vector<std::string> reads, const std::string& detail) {
     reads.push_back(pointer + "/type");
@@ -181,31 +181,25 @@ void appendLightRules(const Light& light, std::size_t index, std::vector<BrokenR
     broken.push_back(
         {invalid(pointer + "/" + name, "A light of type " + type + " has no " + name + "."), {pointer + "/type"}});
   };
-  const auto forbidCones = [&] { // what is not asked for is echoed with its value, and may come back
-    forbid(light.innerConeDegrees != Light().innerConeDegrees, "innerConeDegrees");
-    forbid(light.outerConeDegrees != Light().outerConeDegrees, "outerConeDegrees");
-  };
 
   appendAlternatives(light, pointer, broken);
-  switch (light.type) {
-    case LightType::directional:
-      require(light.direction || light.sun, "direction", {pointer + "/direction", pointer + "/sun"},
-              "A light of type directional needs direction or sun.");
-      forbid(light.position.has_value(), "position");
-      forbid(light.range.has_value(), "range");
-      forbid(light.radius.has_value(), "radius");
-      forbidCones();
-      break;
-    case LightType::spot:
-      require(light.direction.has_value(), "direction", {pointer + "/direction"},
-              "A light of type spot needs a direction.");
-      break;
-    case LightType::point:
-      forbid(light.direction.has_value(), "direction");
-      forbidCones();
-      break;
+  if (kind.parallel) {
+    require(light.direction || light.sun, "direction", {pointer + "/direction", pointer + "/sun"},
+            "A light of type " + type + " needs direction or sun.");
+    forbid(light.position.has_value(), "position");
+    forbid(light.range.has_value(), "range");
+    forbid(light.radius.has_value(), "radius");
+  } else if (kind.directed) {
+    require(light.direction.has_value(), "direction", {pointer + "/direction"},
+            "A light of type " + type + " needs a direction.");
+  } else {
+    forbid(light.direction.has_value(), "direction");
   }
-  if (!directional) {
+  if (!kind.hasCone) { // what is not asked for is echoed with its value, and may come back
+    forbid(light.innerConeDegrees != Light().innerConeDegrees, "innerConeDegrees");
+    forbid(light.outerConeDegrees != Light().outerConeDegrees, "outerConeDegrees");
+  }
+  if (!kind.parallel) {
     require(light.position.has_value(), "position", {pointer + "/position"},
             "A light of type " + type + " needs a position.");
     forbid(light.sun.has_value(), "sun");

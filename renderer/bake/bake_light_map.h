@@ -4,7 +4,7 @@
 
 #include "renderer/bake/light_map.h"
 #include "renderer/bake/light_map_layout.h"
-#include "renderer/core/progress.h"
+#include "renderer/core/stop.h"
 #include "renderer/reference/trace.h"
 
 namespace gnomon {

@@ -79,6 +79,20 @@ bool mayIntersect(const Frustum& frustum, const Aabb& box) {
   return true;
 }
 
+std::vector<glm::dvec3> clipped(const std::vector<glm::dvec3>& polygon, const glm::dvec4& plane) {
+  const auto inside = [&](const glm::dvec3& p) { return glm::dot(glm::dvec3(plane), p) + plane.w; };
+  std::vector<glm::dvec3> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3& from = polygon[i];
+    const glm::dvec3& to = polygon[(i + 1) % polygon.size()];
+    const double a = inside(from);
+    const double b = inside(to);
+    if (a >= 0) kept.push_back(from);
+    if ((a > 0 && b < 0) || (a < 0 && b > 0)) kept.push_back(glm::mix(from, to, a / (a - b)));
+  }
+  return kept;
+}
+
 std::vector<BlockStrip> blockStrips(int count, int blockSize, int pixels, const glm::dvec3& axis) {
   constexpr double kMargin = 0.5; // pixels
   const auto at = [&](double pixel) { return axis * (2.0 * pixel / pixels - 1.0); };

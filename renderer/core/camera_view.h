@@ -80,6 +80,9 @@ Frustum frustumOf(const CameraView& view);
 /// False only where the box is surely outside: a box across a corner may be kept.
 bool mayIntersect(const Frustum& frustum, const Aabb& box);
 
+/// The part of a convex polygon that is inside of a plane (Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974).
+std::vector<glm::dvec3> clipped(const std::vector<glm::dvec3>& polygon, const glm::dvec4& plane);
+
 /// What a column or row of blocks of pixels adds to a point: least and greatest, component by component.
 struct BlockStrip {
   glm::dvec3 low{0};

@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-/// The CPU's vendor and family, and whether it knows SSE 4.2, e.g. "AuthenticAMD 25 sse4.2". Software renderers give
+/// The CPU's vendor and family, and whether it has SSE 4.2, e.g. "AuthenticAMD 25 sse4.2". Software renderers give
 /// other bytes on other makes, and the compressor of PNGs does without SSE 4.2.
 std::string cpuMake();
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/core/vec3.h"
+#include "protocol/spec/traits.h"
+#include "renderer/core/linear_algebra.h"
 
 namespace gnomon {
 namespace {
@@ -36,7 +37,7 @@ glm::dvec3 linearSrgbOf(const glm::dvec3& xyz) {
 } // namespace
 
 double radiusOf(const Light& light) {
-  if (light.type != LightType::directional) return light.radius.value_or(0.0);
+  if (!traitsOf(light.type).parallel) return light.radius.value_or(0.0);
   return std::tan(0.5 * glm::radians(light.angularDiameterDegrees.value_or(0.0)));
 }
 

@@ -16,14 +16,14 @@ namespace gnomon {
 std::optional<double> coresOfCpuMax(std::string_view cpuMax);
 
 /// The tightest limit on this process: its control group's and every ancestor's.
-/// `root`: where control groups are mounted; `membership`: the text of /proc/self/cgroup. Knows versions 1 and 2.
+/// `root`: where control groups, version 1 or 2, are mounted; `membership`: the text of /proc/self/cgroup.
 std::optional<double> coresGranted(const std::filesystem::path& root, std::string_view membership);
 
 /// Cores to keep busy: the machine's, or as many as this process is granted where that is fewer; at least 1.
 int coresToUse();
 
-// The only parallel loops of the program: each runs on as many threads as `coresToUse()` allows, and no more. What they
-// run listens to what the calling thread listens to (stop.h), and is begun no more once that is to stop.
+// The only parallel loops of the program: each runs on as many threads as `coresToUse()` allows, and is cancelled with
+// the calling thread's task (stop.h).
 
 /// Runs `task`; whatever it starts in parallel (Embree's builds, for one) keeps to that number of threads too.
 void onAllCores(const std::function<void()>& task);

@@ -11,6 +11,9 @@
 
 namespace gnomon {
 
+/// Called with the progress of a long task, 0..1, by one thread at a time; false cancels it. Empty = not reported.
+using Progress = std::function<bool(double)>;
+
 /// Called while a long task runs; false cancels it. By one thread at a time, not always the same one. Empty = never
 /// cancelled.
 using GoOn = std::function<bool()>;

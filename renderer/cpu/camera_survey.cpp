@@ -7,7 +7,7 @@
 #include "renderer/cpu/raster/depth_spans.h"
 #include "renderer/cpu/surface/material_holes.h"
 #include "renderer/prepare/box_depths.h"
-#include "renderer/prepare/survey_slots.h"
+#include "renderer/prepare/cluster_choice.h"
 
 namespace gnomon::cpu {
 

@@ -8,8 +8,8 @@
 #include "renderer/cpu/raster/raster.h"
 #include "renderer/cpu/surface/textures.h"
 #include "renderer/cpu/tile_store.h"
-#include "renderer/device/facts.h"
-#include "renderer/prepare/tile_casters.h"
+#include "renderer/device/device.h"
+#include "renderer/prepare/cluster_choice.h"
 #include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon::cpu {

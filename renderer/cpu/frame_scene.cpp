@@ -44,7 +44,7 @@ SmoothAsked smoothAsked(const ResolvedFrame& frame) {
     const bool asks = shadow.enabled && shadow.terminator == Terminator::smooth && !traitsOf(shadow.technique).layered;
     if (!asks) continue;
     smooth.asked = true;
-    anywhere = anywhere || light.type != LightType::directional || smooth.suns.size() == kMostSuns;
+    anywhere = anywhere || !traitsOf(light.type).parallel || smooth.suns.size() == kMostSuns;
     if (anywhere) continue;
     smooth.suns.emplace_back(glm::vec3(-directionOf(light)),
                              static_cast<float>(std::max(radiusOf(light), 1e-4) + 1e-5));

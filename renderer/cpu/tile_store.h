@@ -11,7 +11,7 @@
 
 #include "renderer/cpu/raster/depth_buffer.h"
 #include "renderer/cpu/raster/texel_marks.h"
-#include "renderer/prepare/tile_casters.h"
+#include "renderer/prepare/cluster_choice.h"
 
 namespace gnomon::cpu {
 

@@ -1,23 +1,58 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "protocol/report/frame_report.h"
 #include "protocol/report/replies.h"
 #include "renderer/bake/baked_light.h"
-#include "renderer/device/facts.h"
 #include "renderer/image/image.h"
 #include "renderer/prepare/lit_light.h"
 #include "renderer/reference/traced_scene.h"
 #include "renderer/resolve/resolve_frame.h"
 #include "renderer/volume/frame_volumes.h"
 
-/// What draws frames. A device knows how to draw, and decides nothing: what is seen, planned and reported is told to it
-/// or asked of it in plain values. Calls come in the order in which they stand here, on the thread that made it.
+/// What draws frames. A device decides nothing: what is seen, planned and reported is passed in plain values. Calls
+/// come in the order in which they stand here, on the thread that made it.
 namespace gnomon {
+
+/// How long something took, by the processor's clock and, where it has one, by the device's. Milliseconds.
+struct WorkTime {
+  double cpuMilliseconds = 0;
+  std::optional<double> gpuMilliseconds{};
+};
+
+/// What went into one tile of the plan.
+struct TileFacts {
+  std::uint64_t casterTriangles = 0;
+  std::uint64_t culledTriangles = 0;
+  std::size_t drawCalls = 0;
+  bool reused = false;            ///< an earlier frame's tile serves; at most texels that none has read were added
+  std::optional<WorkTime> time{}; ///< absent where nothing was drawn
+};
+
+/// What finding one light's visibility layer took, at one number of samples a pixel.
+struct LayerFacts {
+  int light = 0; ///< index into the effective lights
+  double cpuMilliseconds = 0;
+  std::optional<std::uint64_t> tracedPixels{}; ///< that rays decided; absent where none were asked
+};
+
+struct FrameFacts {
+  std::vector<TileFacts> tiles; ///< one a tile of the plan
+  std::vector<LayerFacts> layers;
+  std::vector<PassReport> passes; ///< in the order in which they ran
+  std::uint64_t surveyedTriangles = 0;
+  std::uint64_t shadedTriangles = 0;
+  std::size_t otherDrawCalls = 0; ///< of what is no pass of its own
+  MemoryReport memory;
+  std::vector<StageTime> stages;
+};
 
 /// A frame to be drawn. What it refers to outlives the drawing.
 struct FrameWork {
@@ -26,17 +61,17 @@ struct FrameWork {
   std::vector<int> layered; ///< lights whose technique needs a visibility layer, in the layers' order: baked ones last
   bool needsEdges = false;  ///< some light's technique needs the edges of meshes
   std::function<Result<std::shared_ptr<const TracedScene>>()> traced; ///< asked where rays are needed
-  /// What was baked for a light whose technique says so; asked after the survey.
+  /// What was baked for a light whose technique is baked; asked after the survey.
   std::function<std::shared_ptr<const BakedLight>(int light)> baked;
   const FrameVolumes* volumes = nullptr; ///< filled when the survey begins; null or empty = none
-  std::vector<std::uint32_t> parts{};    ///< what the survey tells by itself: receiver groups, a bit each
+  std::vector<std::uint32_t> parts{};    ///< what the survey reports separately: receiver groups, a bit each
 };
 
 /// Whether tiles that earlier frames drew may serve a frame. Its pictures are the same either way; its times are not.
 enum class TileUse { kept, drawnAnew };
 
-/// A picture that a frame shows. Views of source `rays` and `geometry` are made from what else a device tells, and are
-/// not asked of it.
+/// A picture that a frame shows. Views of source `rays` and `geometry` are made from what else a device returns, and
+/// are not asked of it.
 struct ViewRequest {
   View view = View::color;
   bool encoded = true;       ///< 8 or 16 bits a channel, tone mapped; else linear numbers
@@ -49,7 +84,7 @@ struct ViewRequest {
 struct ShowInput {
   const ShadowPlan& plan;
   std::span<const LitLight> lights{};          ///< the frame's
-  std::span<const std::uint32_t> lightLists{}; ///< prepare/light_lists.h; empty = every light is tried at every pixel
+  std::span<const std::uint32_t> lightLists{}; ///< lightLists; empty = every light is tried at every pixel
   int debugLight = -1;                         ///< what views of one light show; -1 = there is none
   const PlannedLight* planned = nullptr;       ///< of the plan: the same; null where it has no map
   const ShadowTile* tile = nullptr;            ///< of the plan: what view `tile` shows

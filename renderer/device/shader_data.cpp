@@ -7,13 +7,16 @@
 #include <glm/gtc/constants.hpp>
 
 #include "protocol/spec/limits.h"
-#include "renderer/core/vec3.h"
-#include "renderer/prepare/light_lists.h"
+#include "protocol/spec/traits.h"
+#include "renderer/core/linear_algebra.h"
+#include "renderer/prepare/lit_light.h"
 
 namespace gnomon {
 
 static_assert(kLimits.maxCascades <= GNOMON_LIGHT_TILES);
 // What shaders share with what is decided without them.
+static_assert(std::ranges::equal(std::array{GNOMON_DIRECTIONAL, GNOMON_SPOT, GNOMON_POINT}, kLightTraits, {}, {},
+                                 [](const LightTraits& light) { return static_cast<int>(light.type); }));
 static_assert(GNOMON_BLOCK_SIZE == kSurveyBlock);
 static_assert(GNOMON_REGION_SIZE == kLightListSquare && GNOMON_REGION_SIZE % GNOMON_BLOCK_SIZE == 0);
 // As std140 and std430 lay them out: a vec3 and the scalar behind it share 16 bytes. Each offset is compared with the
@@ -24,18 +27,6 @@ static_assert(sizeof(shared::FrameData) == 12 * 16 && offsetof(shared::FrameData
 static_assert(sizeof(shared::MaterialData) == 15 * 16);
 
 namespace {
-
-int typeOf(LightType type) {
-  switch (type) {
-    case LightType::directional:
-      return GNOMON_DIRECTIONAL;
-    case LightType::spot:
-      return GNOMON_SPOT;
-    case LightType::point:
-      return GNOMON_POINT;
-  }
-  return GNOMON_DIRECTIONAL;
-}
 
 /// The narrowest falloff, between two cosines: a sharp edge, where both cones are the same.
 constexpr double kSharpEdge = 1e-5;
@@ -48,44 +39,17 @@ glm::vec2 coneFalloff(const LitLight& light) {
   return {scale, -outer * scale};
 }
 
-} // namespace
-
-int filterKind(const FilterKernel& filter) {
-  switch (filter.kind) {
-    case MapReadingKind::texels:
-      return GNOMON_FILTER_KERNEL;
-    case MapReadingKind::disc:
-      return GNOMON_FILTER_DISC;
-    case MapReadingKind::pcss:
-      return GNOMON_FILTER_PCSS;
-    case MapReadingKind::vsm:
-      return GNOMON_FILTER_VSM;
-    case MapReadingKind::evsm:
-      return GNOMON_FILTER_EVSM;
-    case MapReadingKind::msm:
-      return GNOMON_FILTER_MSM;
-  }
-  return GNOMON_FILTER_KERNEL;
-}
-
-int toneOf(ToneMapping toneMapping, bool encoded) {
-  if (!encoded) return GNOMON_TONE_NONE;
-  return toneMapping == ToneMapping::aces ? GNOMON_TONE_ACES : GNOMON_TONE_CLIP;
-}
-
-namespace {
-
 shared::LightData packed(const LitLight& light) {
   shared::LightData out{};
-  out.direction = glm::vec3(light.type == LightType::directional ? -light.direction : light.direction);
-  out.type = typeOf(light.type);
+  out.direction = glm::vec3(traitsOf(light.type).parallel ? -light.direction : light.direction);
+  out.type = static_cast<int>(light.type);
   out.position = glm::vec3(light.position);
   out.range = static_cast<float>(light.range);
   out.radiance = glm::vec3(light.radiance);
   out.strength = static_cast<float>(light.strength);
   out.shadowColor = glm::vec3(light.shadowColor);
   out.hasShadowColor = light.shadowColor != glm::dvec3(0) ? 1 : 0;
-  if (light.type == LightType::spot) {
+  if (traitsOf(light.type).hasCone) {
     const glm::vec2 falloff = coneFalloff(light);
     out.coneScale = falloff.x;
     out.coneOffset = falloff.y;
@@ -151,6 +115,20 @@ shared::TileData tileData(const ShadowTile& tile, const glm::dvec2& atlas) {
 }
 
 } // namespace
+
+int filterKind(const FilterKernel& filter) {
+  using enum MapReadingKind;
+  static_assert(std::array{texels, disc, vsm, evsm, msm, pcss} ==
+                std::array{MapReadingKind{GNOMON_FILTER_KERNEL}, MapReadingKind{GNOMON_FILTER_DISC},
+                           MapReadingKind{GNOMON_FILTER_VSM}, MapReadingKind{GNOMON_FILTER_EVSM},
+                           MapReadingKind{GNOMON_FILTER_MSM}, MapReadingKind{GNOMON_FILTER_PCSS}});
+  return static_cast<int>(filter.kind);
+}
+
+int toneOf(ToneMapping toneMapping, bool encoded) {
+  if (!encoded) return GNOMON_TONE_NONE;
+  return toneMapping == ToneMapping::aces ? GNOMON_TONE_ACES : GNOMON_TONE_CLIP;
+}
 
 std::vector<shared::LightData> lightData(std::span<const LitLight> lights) {
   std::vector<shared::LightData> data;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "protocol/spec/output_options.h"
 #include "protocol/spec/traits.h"
 #include "renderer/core/srgb.h"
 #include "renderer/image/image.h"
@@ -37,5 +38,9 @@ inline std::uint16_t fineWord(const ViewTraits& view, std::size_t channel, float
 /// The picture, first row on top, of depths 0..1 whose LOWEST row comes first: grey where `encoded`, of 16 bits where
 /// it is also `fine`; else as they are.
 Image depthImage(int width, int height, const std::vector<float>& depths, bool encoded, bool fine);
+
+/// A view whose `wordsAreNumbers`, in 16 bits, from its numbers: depths in whole millimetres, indices as they are.
+/// 65535 = nothing, or more than fits. REQUIRES: one channel of floats.
+Image wordsOf(const Image& numbers, View view);
 
 } // namespace gnomon

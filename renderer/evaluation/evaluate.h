@@ -7,7 +7,7 @@
 
 #include "protocol/base/result.h"
 #include "protocol/evaluation/evaluation.h"
-#include "renderer/core/progress.h"
+#include "renderer/core/stop.h"
 #include "renderer/frame/frame.h"
 
 /// Speed against error, over whatever draws frames. Part of the door: see render.h.

@@ -4,10 +4,10 @@
 #include <chrono>
 
 #include "protocol/base/elapsed.h"
-#include "renderer/core/visibility_limit.h"
 #include "renderer/evaluation/evaluate.h"
 #include "renderer/frame/settle_frame.h"
 #include "renderer/reference/error_measures.h"
+#include "renderer/resolve/check_frame.h"
 #include "renderer/resolve/plan_input.h"
 #include "renderer/scene/animation/posed_scene.h"
 

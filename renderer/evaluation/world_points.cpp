@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/core/vec3.h"
+#include "renderer/core/linear_algebra.h"
 #include "renderer/reference/frame_nodes.h"
 
 namespace gnomon {

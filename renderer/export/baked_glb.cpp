@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "renderer/bake/mapped_mesh.h"
-#include "renderer/core/cofactors.h"
+#include "renderer/core/linear_algebra.h"
 #include "renderer/core/srgb.h"
 #include "renderer/export/glb_materials.h"
 #include "renderer/image/png_encode.h"

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "renderer/core/cofactors.h"
+#include "protocol/spec/traits.h"
 #include "renderer/core/light.h"
+#include "renderer/core/linear_algebra.h"
 #include "renderer/core/parallel.h"
-#include "renderer/core/vec3.h"
 
 namespace gnomon {
 namespace {
@@ -22,7 +22,7 @@ Arriving arriving(const Light& light, const glm::dvec3& position) {
   const glm::dvec3 color = light.temperatureKelvin ? blackBodyColor(*light.temperatureKelvin)
                                                    : toVector(light.color.value_or(Vec3{1, 1, 1}));
   const glm::dvec3 radiance = color * light.intensity;
-  if (light.type == LightType::directional) return {radiance, -directionOf(light)};
+  if (traitsOf(light.type).parallel) return {radiance, -directionOf(light)};
   const glm::dvec3 offset = toVector(light.position.value_or(Vec3{})) - position;
   const double squared = std::max(glm::dot(offset, offset), 1e-8);
   const glm::dvec3 toLight = offset / std::sqrt(squared);
@@ -31,7 +31,7 @@ Arriving arriving(const Light& light, const glm::dvec3& position) {
     const double ratio = squared / (*light.range * *light.range);
     attenuation *= std::clamp(1 - ratio * ratio, 0.0, 1.0);
   }
-  if (light.type == LightType::spot) {
+  if (traitsOf(light.type).hasCone) {
     const double inner = std::cos(glm::radians(light.innerConeDegrees));
     const double outer = std::cos(glm::radians(light.outerConeDegrees));
     const double cosine = glm::dot(directionOf(light), -toLight);

@@ -1,13 +1,25 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 
-#include "renderer/frame/bake_listener.h"
-#include "renderer/frame/baked_lights.h"
+#include "renderer/frame/light_map_cache.h"
+#include "renderer/frame/settle_frame.h"
+#include "renderer/frame/traced_scene_cache.h"
 
 namespace gnomon {
 
 struct FrameCaches;
+
+/// Called with the light that is baked and its progress, 0..1, by one thread at a time; false asks to stop.
+using BakeProgress = std::function<bool(int light, double share)>;
+
+/// What is baked for each light of a frame, made now if need be; null for lights of other techniques. Empty where no
+/// light asks for it. `asked`: the spec before it was settled, in which a map that would be too large is a problem.
+/// Where `progress` asks to stop, a problem of code unavailable.
+Result<std::vector<LightMapCache::Found>> bakedLights(LightMapCache& maps, TracedSceneCache& traced,
+                                                      const SettledFrame& settled, const FrameSpec& asked,
+                                                      const BakeProgress& progress = {});
 
 /// A scene with light maps for some of its lights.
 struct BakedScene {
@@ -18,9 +30,7 @@ struct BakedScene {
   double milliseconds = 0;                 ///< of all of it
 };
 
-/// Bakes every light of `spec` whose technique is lightMap, or finds what was baked earlier; a frame of that spec then
-/// reuses it. Camera, size and views do not matter. Problems: those of a frame, one at /shadow/technique where no light
-/// is baked, and one of code unavailable where `listener` asked to stop. Any thread.
+/// As Baker::bake (render.h). Any thread.
 Result<BakedScene> bakeScene(FrameCaches& caches, const std::shared_ptr<const Scene>& scene, const FrameSpec& spec,
                              const BakeListener& listener);
 

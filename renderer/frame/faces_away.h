@@ -30,8 +30,7 @@ class FacesOf {
 };
 
 /// The warning about single-sided surfaces of which every triangle shows the camera its back, where the picture would
-/// show them: in front of all that is seen in a block of the survey, or where something else than surfaces is seen.
-/// `seen`: of all surfaces; `inView`: indices of instances. Nothing where there are none.
+/// show them. `seen`: of all surfaces; `inView`: indices of instances. Nothing where there are none.
 std::optional<std::string> warningOfFacesAway(const Scene& scene, const SceneView& view, const CameraView& camera,
                                               const ReceiverDepths& seen, std::span<const std::uint32_t> inView);
 

@@ -3,7 +3,9 @@
 #include <memory>
 #include <vector>
 
+#include "protocol/base/result.h"
 #include "protocol/report/frame_report.h"
+#include "protocol/report/replies.h"
 #include "renderer/image/image.h"
 
 /// Part of the door: see render.h.
@@ -23,5 +25,9 @@ struct Frame {
   FrameReport report;
   std::vector<ViewImage> images; ///< in the order of the spec's views
 };
+
+/// What rendering `spec` on a device of that kind would do, without one: bounds replace what the camera sees. Any
+/// thread. The same problems as render gives, but for those of files that drawing reads, and of what is drawn.
+Result<PlanReport> planFrame(const ScenePtr& scene, const FrameSpec& spec, const RendererInfo& device);
 
 } // namespace gnomon

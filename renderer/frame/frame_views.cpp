@@ -8,41 +8,21 @@
 #include "protocol/spec/format_traits.h"
 #include "renderer/core/light.h"
 #include "renderer/device/view_image.h"
-#include "renderer/frame/caster_view.h"
-#include "renderer/frame/view_words.h"
+#include "renderer/frame/geometry_views.h"
 #include "renderer/reference/error_measures.h"
 #include "renderer/reference/shadow_edges.h"
 #include "renderer/shaders/shared/functions.h"
 
 namespace gnomon {
 
-Result<MeasuredShadow> measureShadow(const ResolvedFrame& frame, const TracedScene& traced, int light,
-                                     std::vector<float> shown) {
-  const FrameSpec& spec = frame.spec;
-  std::vector<int> lights;
-  int samples = kReferenceSamples;
-  if (light >= 0 && shines((*spec.lights)[static_cast<std::size_t>(light)])) {
-    lights.push_back(light);
-    samples = std::max(samples, (*spec.lights)[static_cast<std::size_t>(light)].shadow->raySamples);
-  }
-  const TraceInput input{traced, frame.view, spec.width, spec.height, *spec.lights, frame.nodes};
-  auto truth = traceReference(input, lights, samples);
-  if (!truth) return truth.problems();
-  const auto errors = measureErrors(*truth, std::span(&shown, lights.size()));
-  return MeasuredShadow{std::move(*truth), std::move(shown), errors};
-}
-
 namespace {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
+constexpr int kReferenceSamples = 256; ///< rays a pixel towards a light that has a size, at least
 constexpr Rgb kFalseShadow{255, 30, 30};
 constexpr Rgb kFalseLight{40, 110, 255};
 constexpr float kFarthest = 16; ///< pixels at the end of the heat map
-
-Image imageOf(const MeasuredShadow& measured, std::vector<std::string> channels) {
-  return {measured.truth.width, measured.truth.height, std::move(channels), {}};
-}
 
 std::vector<float> visibilityOf(const MeasuredShadow& measured) {
   return measured.truth.lights.empty() ? std::vector<float>(measured.shown.size(), 1.0f)
@@ -122,55 +102,38 @@ std::vector<Number> greyOf(const std::vector<float>& shares) {
   return grey;
 }
 
-} // namespace
-
-Image errorNumbers(const MeasuredShadow& measured, View view) {
-  Image image = imageOf(measured, {"Y"});
-  image.pixels = view == View::reference ? visibilityOf(measured)
-                 : view == View::error   ? differenceOf(measured)
-                                         : distancesOf(measured);
-  return image;
-}
-
-Image referencePicture(const MeasuredShadow& measured, bool fine) {
-  Image image = imageOf(measured, {"Y"});
-  if (fine) {
-    image.pixels = greyOf<std::uint16_t>(visibilityOf(measured));
-  } else {
-    image.pixels = greyOf<std::uint8_t>(visibilityOf(measured));
-  }
-  return image;
-}
-
-Image errorPicture(const MeasuredShadow& measured, View view, const Image& color) {
-  Image image = imageOf(measured, {"R", "G", "B"});
-  const std::size_t step = color.channels.size();
-  if (const auto* words = std::get_if<std::vector<std::uint16_t>>(&color.pixels)) {
-    image.pixels = paintedOver(*words, step, measured, view);
-  } else {
-    image.pixels = paintedOver(std::get<std::vector<std::uint8_t>>(color.pixels), step, measured, view);
-  }
-  return image;
-}
-
-namespace {
-
 bool comparesWithRays(View view) {
   return traitsOf(view).source == ViewSource::rays;
 }
 
-bool tellsOfTriangles(View view) {
+bool showsTriangles(View view) {
   return traitsOf(view).source == ViewSource::geometry;
 }
 
 } // namespace
+
+Result<MeasuredShadow> measureShadow(const ResolvedFrame& frame, const TracedScene& traced, int light,
+                                     std::vector<float> shown) {
+  const FrameSpec& spec = frame.spec;
+  std::vector<int> lights;
+  int samples = kReferenceSamples;
+  if (light >= 0 && shines((*spec.lights)[static_cast<std::size_t>(light)])) {
+    lights.push_back(light);
+    samples = std::max(samples, (*spec.lights)[static_cast<std::size_t>(light)].shadow->raySamples);
+  }
+  const TraceInput input{traced, frame.view, spec.width, spec.height, *spec.lights, frame.nodes};
+  auto truth = traceReference(input, lights, samples);
+  if (!truth) return truth.problems();
+  const auto errors = measureErrors(*truth, std::span(&shown, lights.size()));
+  return MeasuredShadow{std::move(*truth), std::move(shown), errors};
+}
 
 bool FrameViews::isTraced(View view) const {
   return view == View::casterIds && castersByRays_;
 }
 
 bool FrameViews::isDrawn(View view) const {
-  return !comparesWithRays(view) && !tellsOfTriangles(view) && !isTraced(view);
+  return !comparesWithRays(view) && !showsTriangles(view) && !isTraced(view);
 }
 
 FrameViews::FrameViews(const FrameSpec& spec, bool castersByRays) : spec_(spec), castersByRays_(castersByRays) {
@@ -205,7 +168,7 @@ bool FrameViews::needReference() const {
 }
 
 bool FrameViews::needGeometry() const {
-  return needCasters() || std::any_of(spec_.views.begin(), spec_.views.end(), tellsOfTriangles);
+  return needCasters() || std::any_of(spec_.views.begin(), spec_.views.end(), showsTriangles);
 }
 
 bool FrameViews::needCasters() const {
@@ -217,20 +180,36 @@ std::vector<float> FrameViews::fullShadow(FrameDrawing& drawing) const {
 }
 
 Image FrameViews::errorImage(FrameDrawing& drawing, View view, const MeasuredShadow& measured) const {
-  const PixelType pixels = madePixels(view);
-  if (pixels == PixelType::numbers) return errorNumbers(measured, view);
-  return traitsOf(view).backdrop ? errorPicture(measured, view, drawing.picture(*backdrop_))
-                                 : referencePicture(measured, pixels == PixelType::words);
+  const PixelType type = madePixels(view);
+  const bool isPainted = type != PixelType::numbers && traitsOf(view).backdrop;
+  Image image{measured.truth.width, measured.truth.height, {"Y"}, {}};
+  if (type == PixelType::numbers) {
+    image.pixels = view == View::reference ? visibilityOf(measured)
+                   : view == View::error   ? differenceOf(measured)
+                                           : distancesOf(measured);
+    return image;
+  }
+  if (isPainted) image.channels = {"R", "G", "B"};
+  const Image color = isPainted ? drawing.picture(*backdrop_) : Image{};
+  const auto make = [&]<class Number>(Number) {
+    image.pixels = isPainted
+                       ? paintedOver(std::get<std::vector<Number>>(color.pixels), color.channels.size(), measured, view)
+                       : greyOf<Number>(visibilityOf(measured));
+  };
+  const bool ofWords =
+      isPainted ? std::holds_alternative<std::vector<std::uint16_t>>(color.pixels) : type == PixelType::words;
+  ofWords ? make(std::uint16_t()) : make(std::uint8_t());
+  return image;
 }
 
 std::vector<ViewImage> FrameViews::images(FrameDrawing& drawing, const MeasuredShadow* measured,
                                           const ShownGeometry* geometry, const std::vector<int>& casters) const {
   std::vector<ViewImage> images;
   for (const View view : spec_.views) {
-    images.push_back({view, comparesWithRays(view)   ? errorImage(drawing, view, *measured)
-                            : tellsOfTriangles(view) ? geometryView(*geometry, view, madePixels(view))
-                            : isTraced(view)         ? casterView(*geometry, casters, madePixels(view))
-                                                     : Image{}});
+    images.push_back({view, comparesWithRays(view) ? errorImage(drawing, view, *measured)
+                            : showsTriangles(view) ? geometryView(*geometry, view, madePixels(view))
+                            : isTraced(view)       ? casterView(*geometry, casters, madePixels(view))
+                                                   : Image{}});
   }
   // After the errors, which are painted over one of them.
   for (std::size_t i = 0; i < images.size(); ++i) {

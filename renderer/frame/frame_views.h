@@ -16,10 +16,7 @@
 /// The pictures of a frame: what a device shows, and the shadow of debug.light compared with rays.
 namespace gnomon {
 
-/// Rays a pixel towards a light that has a size, at least.
-inline constexpr int kReferenceSamples = 256;
-
-/// One light's shadow, and what rays say about it.
+/// One light's shadow, compared with rays.
 struct MeasuredShadow {
   Reference truth;          ///< of that light alone; of none where there is none, or it gives off nothing
   std::vector<float> shown; ///< S: the share of it that the technique lets through, full strength; a value a pixel
@@ -29,16 +26,6 @@ struct MeasuredShadow {
 /// Traces light `light` of a frame (-1 = it has none) and holds `shown` against it.
 Result<MeasuredShadow> measureShadow(const ResolvedFrame& frame, const TracedScene& traced, int light,
                                      std::vector<float> shown);
-
-/// reference: V. error: S - V, 0 where no receiver. edgeDistance: pixels, -1 = no edge, infinity where V has none.
-Image errorNumbers(const MeasuredShadow& measured, View view);
-
-/// V as grey, 0 black; of 16 bits where it is `fine`, else of 8.
-Image referencePicture(const MeasuredShadow& measured, bool fine);
-
-/// error: false shadow red, false light blue. edgeDistance: the edge pixels of S by their distance, a heat map from 0
-/// to 16 pixels. Over `color`, a picture of the same size, in dim grey, and of as many bits.
-Image errorPicture(const MeasuredShadow& measured, View view, const Image& color);
 
 /// The pictures that a frame's views take: one for each view that a device can show, and, where a view compares a
 /// shadow with rays or edges are predicted, that shadow at full strength and a picture to paint on.
@@ -69,6 +56,9 @@ class FrameViews {
   bool isDrawn(View view) const;  ///< by the device
   /// What the view is made as; words that are numbers come from numbers.
   PixelType madePixels(View view) const;
+  /// As numbers: V of view reference; S - V of view error, 0 where no receiver; pixels of view edgeDistance, -1 = no
+  /// edge, infinity where V has none. As a picture: V as grey; error's false shadow red, false light blue;
+  /// edgeDistance's edge pixels of S as a heat map from 0 to 16 pixels; both over the color view in dim grey.
   Image errorImage(FrameDrawing& drawing, View view, const MeasuredShadow& measured) const;
 
   const FrameSpec& spec_;

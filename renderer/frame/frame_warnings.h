@@ -23,7 +23,7 @@ struct WarnedFrame {
   std::span<const int> layered; ///< lights whose shadow rays, light maps or shadow volumes draw, or also draw
 };
 
-/// What a frame knows to be wrong with its picture, or likely not meant: one sentence a rule and a light, with the
+/// What is wrong with a frame's picture, or likely not meant: one sentence a rule and a light, with the
 /// number that shows it and what to set. What only drawing finds out, surfaces that face away, is left out of plans.
 enum class WarnedBy { plan, drawing };
 std::vector<std::string> frameWarnings(const WarnedFrame& warned, WarnedBy by,

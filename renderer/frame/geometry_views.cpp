@@ -46,20 +46,6 @@ glm::vec3 colorOfHue(float turn, float saturation, float brightness) {
   return color;
 }
 
-} // namespace
-
-glm::vec3 colorOf(int id) {
-  if (id < 0) return glm::vec3(0);
-  const auto step = [id](double ratio) {
-    const double turned = (id + 1) * ratio;
-    return static_cast<float>(turned - std::floor(turned));
-  };
-  return colorOfHue(step(0.6180339887498949), 0.55f + 0.4f * step(0.7548776662466927),
-                    0.7f + 0.3f * step(0.5698402909980532));
-}
-
-namespace {
-
 /// White for no motion, and the full hue of its direction from `kFarMotion` pixels on: red to the right, then
 /// clockwise. Black where there is none.
 glm::vec3 colorOfMotion(const glm::dvec2& motion) {
@@ -81,46 +67,35 @@ glm::vec3 placeIn(const Aabb& bounds, const glm::dvec3& point) {
   return place;
 }
 
-/// `numbersOf(triangle, place, out)` writes a pixel's channels.
+glm::dvec2 centreOf(const ShownGeometry& shown, std::size_t pixel) {
+  const auto width = static_cast<std::size_t>(shown.width);
+  return {static_cast<double>(pixel % width) + 0.5, static_cast<double>(pixel / width) + 0.5};
+}
+
+/// `numbersOf(pixel, place, out)` writes a pixel's channels.
 template <class Number, class NumbersOf>
 std::vector<Number> pixelsOf(const ShownGeometry& shown, std::size_t channels, const NumbersOf& numbersOf) {
   const auto width = static_cast<std::size_t>(shown.width);
   std::vector<Number> pixels(width * static_cast<std::size_t>(shown.height) * channels);
   forEach(static_cast<std::size_t>(shown.height), [&](std::size_t row) {
-    for (std::size_t column = 0; column < width; ++column) {
-      const std::size_t pixel = row * width + column;
-      const glm::dvec2 place(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
-      numbersOf(shown.triangles[pixel], place, pixels.data() + pixel * channels);
+    for (std::size_t pixel = row * width; pixel < (row + 1) * width; ++pixel) {
+      numbersOf(pixel, centreOf(shown, pixel), pixels.data() + pixel * channels);
     }
   });
   return pixels;
 }
 
-template <class Number>
-std::vector<Number> colorsOf(const ShownGeometry& shown, View view) {
-  return pixelsOf<Number>(shown, 3, [&](const PlacedTriangle& triangle, glm::dvec2 place, Number* out) {
-    const glm::vec3 color = view == View::position ? placeIn(shown.view.bounds, seenPoint(shown, triangle, place))
-                            : view == View::motion ? colorOfMotion(motionAt(shown, *shown.earlier, triangle, place))
-                                                   : colorOf(idOf(shown, view, triangle));
-    for (int i = 0; i < 3; ++i) out[i] = unorm<Number>(color[i]);
-  });
+/// `colorAt(pixel, place)`, in 8 or 16 bits a channel.
+template <class ColorAt>
+void paint(const ShownGeometry& shown, PixelType type, const ColorAt& colorAt, Image& image) {
+  const auto colors = [&]<class Number>(Number) {
+    image.pixels = pixelsOf<Number>(shown, 3, [&](std::size_t pixel, const glm::dvec2& place, Number* out) {
+      const glm::vec3 color = colorAt(pixel, place);
+      for (int i = 0; i < 3; ++i) out[i] = unorm<Number>(color[i]);
+    });
+  };
+  type == PixelType::words ? colors(std::uint16_t()) : colors(std::uint8_t());
 }
-
-} // namespace
-
-std::array<glm::dvec3, 3> cornersOf(const Scene& scene, const Instance& instance, std::uint32_t triangle,
-                                    const glm::dvec3& eye) {
-  const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
-  std::array<glm::dvec3, 3> corners;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const std::size_t index = scene.indices[primitive.firstIndex + std::size_t{triangle} * 3 + i];
-    const glm::dvec4 local(glm::dvec3(scene.positions[primitive.baseVertex + index]), 1.0);
-    corners[i] = glm::dvec3(instance.worldFromLocal * local) - eye;
-  }
-  return corners;
-}
-
-namespace {
 
 /// Relative to the eye; not finite where the triangle is seen edge-on.
 glm::dvec3 onPlane(const ShownGeometry& shown, const std::array<glm::dvec3, 3>& corners, glm::dvec2 place) {
@@ -136,14 +111,50 @@ std::array<glm::dvec3, 3> shownCorners(const ShownGeometry& shown, const PlacedT
   return cornersOf(shown.scene, instanceOf(shown, triangle), triangle.triangle, shown.camera.eye);
 }
 
-} // namespace
-
+/// Where the ray through a place on the picture (pixels, from the upper left corner) meets the plane of a triangle, in
+/// the world. Infinite where it does not.
 glm::dvec3 seenPoint(const ShownGeometry& shown, const PlacedTriangle& triangle, glm::dvec2 place) {
   if (triangle.instance == kNoSurface) return glm::dvec3(kInfinity);
   const auto corners = shownCorners(shown, triangle);
   const glm::dvec3 point = onPlane(shown, corners, place);
   // Of a triangle that is seen edge-on any point does.
   return shown.camera.eye + (finite(point) ? point : corners[0]);
+}
+
+/// As common_debug.glsl has it.
+float greyOf(const ShownGeometry& shown, std::size_t pixel) {
+  const PlacedTriangle& triangle = shown.triangles[pixel];
+  const CameraView& camera = shown.camera;
+  const auto corners = cornersOf(shown.scene, shown.view.instances[triangle.instance], triangle.triangle, camera.eye);
+  const glm::dvec3 area = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const glm::dvec3 toEye =
+      camera.perspective ? camera.eye - seenPoint(shown, triangle, centreOf(shown, pixel)) : -camera.forward;
+  const double lengths = glm::length(area) * glm::length(toEye);
+  return 0.25f + 0.35f * static_cast<float>(lengths > 0 ? std::abs(glm::dot(area, toEye)) / lengths : 1);
+}
+
+} // namespace
+
+glm::vec3 colorOf(int id) {
+  if (id < 0) return glm::vec3(0);
+  const auto step = [id](double ratio) {
+    const double turned = (id + 1) * ratio;
+    return static_cast<float>(turned - std::floor(turned));
+  };
+  return colorOfHue(step(0.6180339887498949), 0.55f + 0.4f * step(0.7548776662466927),
+                    0.7f + 0.3f * step(0.5698402909980532));
+}
+
+std::array<glm::dvec3, 3> cornersOf(const Scene& scene, const Instance& instance, std::uint32_t triangle,
+                                    const glm::dvec3& eye) {
+  const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
+  std::array<glm::dvec3, 3> corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const std::size_t index = scene.indices[primitive.firstIndex + std::size_t{triangle} * 3 + i];
+    const glm::dvec4 local(glm::dvec3(scene.positions[primitive.baseVertex + index]), 1.0);
+    corners[i] = glm::dvec3(instance.worldFromLocal * local) - eye;
+  }
+  return corners;
 }
 
 glm::dvec3 seenWeights(const ShownGeometry& shown, const PlacedTriangle& triangle, glm::dvec2 place) {
@@ -161,25 +172,55 @@ glm::dvec3 seenWeights(const ShownGeometry& shown, const PlacedTriangle& triangl
 
 Image geometryView(const ShownGeometry& shown, View view, PixelType pixels) {
   Image image{shown.width, shown.height, channelsOf(view, pixels != PixelType::numbers, true), {}};
-  if (pixels == PixelType::bytes) {
-    image.pixels = colorsOf<std::uint8_t>(shown, view);
-  } else if (pixels == PixelType::words) {
-    image.pixels = colorsOf<std::uint16_t>(shown, view);
-  } else if (view == View::position) {
-    image.pixels = pixelsOf<float>(shown, 3, [&](const PlacedTriangle& triangle, glm::dvec2 place, float* out) {
-      const glm::dvec3 point = seenPoint(shown, triangle, place);
-      for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(point[i]);
-    });
-  } else if (view == View::motion) {
-    image.pixels = pixelsOf<float>(shown, 2, [&](const PlacedTriangle& triangle, glm::dvec2 place, float* out) {
-      const glm::dvec2 moved = motionAt(shown, *shown.earlier, triangle, place);
-      for (int i = 0; i < 2; ++i) out[i] = static_cast<float>(moved[i]);
-    });
-  } else {
-    image.pixels = pixelsOf<float>(shown, 1, [&](const PlacedTriangle& triangle, glm::dvec2, float* out) {
-      *out = static_cast<float>(idOf(shown, view, triangle));
-    });
+  if (pixels != PixelType::numbers) {
+    const auto colorAt = [&](std::size_t pixel, const glm::dvec2& place) {
+      const PlacedTriangle& triangle = shown.triangles[pixel];
+      return view == View::position ? placeIn(shown.view.bounds, seenPoint(shown, triangle, place))
+             : view == View::motion ? colorOfMotion(motionAt(shown, *shown.earlier, triangle, place))
+                                    : colorOf(idOf(shown, view, triangle));
+    };
+    paint(shown, pixels, colorAt, image);
+    return image;
   }
+  image.pixels =
+      pixelsOf<float>(shown, image.channels.size(), [&](std::size_t pixel, const glm::dvec2& place, float* out) {
+        const PlacedTriangle& triangle = shown.triangles[pixel];
+        if (view == View::position) {
+          const glm::dvec3 point = seenPoint(shown, triangle, place);
+          for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(point[i]);
+        } else if (view == View::motion) {
+          const glm::dvec2 moved = motionAt(shown, *shown.earlier, triangle, place);
+          for (int i = 0; i < 2; ++i) out[i] = static_cast<float>(moved[i]);
+        } else {
+          *out = static_cast<float>(idOf(shown, view, triangle));
+        }
+      });
+  return image;
+}
+
+std::vector<int> casterNodes(const ShownGeometry& shown, const TraceInput& rays, int light) {
+  std::vector<glm::vec2> places;
+  places.reserve(shown.triangles.size());
+  for (std::size_t i = 0; i < shown.triangles.size(); ++i) places.emplace_back(centreOf(shown, i));
+  const std::vector<std::uint32_t> casters = casterInstances(rays, light, pointsOn(rays, places, shown.triangles));
+  std::vector<int> nodes(casters.size());
+  std::transform(casters.begin(), casters.end(), nodes.begin(), [&](std::uint32_t instance) {
+    return instance == kNoSurface ? -1 : shown.view.instances[instance].node;
+  });
+  return nodes;
+}
+
+Image casterView(const ShownGeometry& shown, const std::vector<int>& nodes, PixelType pixels) {
+  Image image{shown.width, shown.height, channelsOf(View::casterIds, pixels != PixelType::numbers, true), {}};
+  if (pixels == PixelType::numbers) {
+    image.pixels = std::vector<float>(nodes.begin(), nodes.end());
+    return image;
+  }
+  const auto colorAt = [&](std::size_t pixel, const glm::dvec2&) {
+    if (shown.triangles[pixel].instance == kNoSurface) return glm::vec3(0);
+    return nodes[pixel] < 0 ? glm::vec3(greyOf(shown, pixel)) : colorOf(nodes[pixel]);
+  };
+  paint(shown, pixels, colorAt, image);
   return image;
 }
 

@@ -6,6 +6,7 @@
 #include "protocol/spec/format_traits.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/image/image.h"
+#include "renderer/reference/trace.h"
 #include "renderer/scene/scene.h"
 
 /// Views of what each pixel's centre shows: numbers that come from the scene alone, in double precision, whatever
@@ -43,8 +44,11 @@ inline glm::dvec3 pointOf(const std::array<glm::dvec3, 3>& corners, const glm::d
   return corners[0] * weights.x + corners[1] * weights.y + corners[2] * weights.z;
 }
 
-/// Where the ray through a place on the picture (pixels, from the upper left corner) meets the plane of a triangle, in
-/// the world. Infinite where it does not.
-glm::dvec3 seenPoint(const ShownGeometry& shown, const PlacedTriangle& triangle, glm::dvec2 place);
+/// View casterIds of a light whose shadow no map decides, by rays from what each pixel's centre shows: nodes, one a
+/// pixel; -1 where none casts a shadow: see casterInstances. `rays`: of the frame that `shown` is of.
+std::vector<int> casterNodes(const ShownGeometry& shown, const TraceInput& rays, int light);
+
+/// The nodes as numbers; or each as its color, and what none shadows as grey, the lighter the more it faces the eye.
+Image casterView(const ShownGeometry& shown, const std::vector<int>& nodes, PixelType pixels);
 
 } // namespace gnomon

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "protocol/base/elapsed.h"
+#include "protocol/spec/traits.h"
 #include "renderer/bake/bake_light_map.h"
 #include "renderer/bake/light_map_file.h"
 #include "renderer/core/stop.h"
@@ -14,7 +15,7 @@ namespace gnomon {
 Light shadowOf(const Light& light) {
   Light shadow = light;
   const Light plain;
-  shadow.range = plain.range; // what lies beyond it is not lit, whatever the map says
+  shadow.range = plain.range; // what lies beyond it is not lit, whatever the map holds
   shadow.innerConeDegrees = plain.innerConeDegrees;
   shadow.outerConeDegrees = plain.outerConeDegrees;
   shadow.color = plain.color;
@@ -35,7 +36,7 @@ LightMapFineness finenessOf(const LightMapOptions& options) {
   return {{}, options.size};
 }
 
-/// Whence the whole scene is seen: surfaces that are one to a camera there are one to the map.
+/// A place from which the whole scene is seen: surfaces that are one to a camera there are one to the map.
 glm::dvec3 fromAfar(const SceneView& view) {
   const double extent = view.bounds.empty() ? 0.0 : glm::length(view.bounds.max - view.bounds.min);
   return anchorOf(view) + glm::dvec3(0, extent, 0);
@@ -127,7 +128,7 @@ Result<LightMapCache::Found> LightMapCache::make(const BakeInput& input, int ind
   std::vector<Light> lights(input.lights.begin(), input.lights.end());
   Light& open = lights[static_cast<std::size_t>(index)];
   open.range.reset();
-  if (open.type == LightType::spot) open.type = LightType::point;
+  if (traitsOf(open.type).hasCone) open.type = LightType::point;
   const TraceInput rays{input.traced, camera, 1, 1, lights, input.nodes};
   auto map = bakeLightMap(rays, index, *baked.layout, options.samples, progress);
   if (!map) return stopped();

@@ -9,7 +9,7 @@
 #include "protocol/base/lru.h"
 #include "protocol/base/result.h"
 #include "renderer/bake/baked_light.h"
-#include "renderer/core/progress.h"
+#include "renderer/core/stop.h"
 #include "renderer/frame/light_map_store.h"
 #include "renderer/reference/trace.h"
 
@@ -29,9 +29,8 @@ struct BakeInput {
 };
 
 /// Light maps of earlier frames, the least recently used dropped first once they take more than a budget, and those of
-/// scenes that are in use nowhere else. A map serves as long as all that its shadow depends on is the same: the scene
-/// and its pose, where the light is and how large, what the nodes switch, and how finely it is baked. Any thread; one
-/// that asks for a map waits while another thread makes that map.
+/// scenes that are in use nowhere else. A map serves as long as all that its shadow depends on is the same (shadowOf).
+/// Any thread; one that asks for a map waits while another thread makes that map.
 class LightMapCache {
  public:
   /// `store`: also keeps what is baked, and is asked before anything is; may be nullptr.
@@ -47,7 +46,7 @@ class LightMapCache {
 
   /// Baked now if need be. `light`: index into the lights, of technique lightMap. A problem where the map would be too
   /// large; its pointer begins at the light's `shadow.lightMap`. The newest stays, whatever its size. `progress` is
-  /// also asked while this waits for another thread; where it says stop, a problem of code unavailable.
+  /// also asked while this waits for another thread; where it asks to stop, a problem of code unavailable.
   Result<Found> get(const BakeInput& input, int light, const Progress& progress = {});
 
  private:

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
+#include "protocol/bake/bake_report.h"
 #include "protocol/base/bytes.h"
 
 /// Part of the door: see render.h.
@@ -17,5 +19,9 @@ class LightMapStore {
   virtual std::optional<Bytes> read(const std::string& key) = 0;         ///< nothing where there are none
   virtual void write(const std::string& key, const Bytes& lightMap) = 0; ///< as far as there is room
 };
+
+/// Called with the progress of a bake, its key left empty, by one thread at a time; false asks it to stop. Empty = not
+/// reported.
+using BakeListener = std::function<bool(const BakeStep&)>;
 
 } // namespace gnomon

@@ -64,27 +64,6 @@ FrameCounts countsOf(const FrameOutcome& outcome) {
   return counts;
 }
 
-} // namespace
-
-FrameReport makeReport(FrameOutcome outcome) {
-  FrameReport report;
-  report.spec = outcome.frame.spec;
-  report.depthRange = askedDepths(outcome.frame.view, outcome.depths);
-  report.atlasSize = {outcome.plans.drawn.atlasWidth, outcome.plans.drawn.atlasHeight};
-  report.lights = drawnLights(outcome);
-  report.volumes.assign(outcome.volumes.begin(), outcome.volumes.end());
-  report.predictedError = outcome.errors.all;
-  report.error = outcome.error;
-  report.counts = countsOf(outcome);
-  report.memory = outcome.facts.memory;
-  report.passes = std::move(outcome.facts.passes);
-  report.stages = std::move(outcome.facts.stages);
-  report.warnings = outcome.frame.warnings;
-  return report;
-}
-
-namespace {
-
 std::array<double, 16> clipFromWorld(const ShadowTile& tile, const glm::dvec3& eye) {
   glm::dmat4 matrix = tile.clipFromRelative;
   matrix[3] = matrix * glm::dvec4(-eye, 1.0);
@@ -111,7 +90,7 @@ void addBias(const ShadowTile& tile, const Bias& bias, TileReport& report) {
 TileReport tileReport(const ShadowTile& tile, LightType type, const Bias& bias,
                       const std::optional<PredictedError>& error, const CameraView& view) {
   TileReport report;
-  const double ahead = type == LightType::directional ? view.ahead : 0.0;
+  const double ahead = traitsOf(type).parallel ? view.ahead : 0.0;
   report.near = tile.near + ahead;
   report.far = tile.far + ahead;
   if (tile.rect.width == 0) return report;
@@ -129,7 +108,7 @@ void addTo(std::optional<double>& sum, const std::optional<double>& part) {
   if (part) sum = sum.value_or(0.0) + *part;
 }
 
-/// What a light with a size loses to a technique that knows none, and one without to a filter that needs it.
+/// A light with a size whose technique ignores it, or one without whose filter needs it.
 std::string sharpNote(const Light& light) {
   const bool sized = hasSize(light);
   const TechniqueTraits& technique = traitsOf(light.shadow->technique);
@@ -153,7 +132,7 @@ std::string unusedNote(const Light& light, bool mapped) {
   return "without effect with technique " + std::string(spell(light.shadow->technique)) + ": " + names;
 }
 
-/// The notes that say something, one after the other.
+/// The notes that are not empty, one after the other.
 std::string joined(std::initializer_list<std::string> notes) {
   std::string all;
   for (const std::string& note : notes) {
@@ -179,6 +158,23 @@ void addTiles(const ResolvedFrame& frame, const ShadowPlan& plan, const PlannedL
 }
 
 } // namespace
+
+FrameReport makeReport(FrameOutcome outcome) {
+  FrameReport report;
+  report.spec = outcome.frame.spec;
+  report.depthRange = askedDepths(outcome.frame.view, outcome.depths);
+  report.atlasSize = {outcome.plans.drawn.atlasWidth, outcome.plans.drawn.atlasHeight};
+  report.lights = drawnLights(outcome);
+  report.volumes.assign(outcome.volumes.begin(), outcome.volumes.end());
+  report.predictedError = outcome.errors.all;
+  report.error = outcome.error;
+  report.counts = countsOf(outcome);
+  report.memory = outcome.facts.memory;
+  report.passes = std::move(outcome.facts.passes);
+  report.stages = std::move(outcome.facts.stages);
+  report.warnings = outcome.frame.warnings;
+  return report;
+}
 
 bool isPlanned(const ShadowPlan& plan, int light) {
   return std::any_of(plan.lights.begin(), plan.lights.end(),

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "protocol/report/frame_report.h"
-#include "renderer/device/facts.h"
+#include "renderer/device/device.h"
 #include "renderer/frame/light_map_cache.h"
 #include "renderer/resolve/plan_input.h"
 #include "renderer/resolve/resolve_frame.h"

@@ -1,12 +1,10 @@
-#include "renderer/frame/plan_frame.h"
-
+#include "renderer/frame/frame.h"
 #include "renderer/frame/frame_warnings.h"
 #include "renderer/frame/make_report.h"
 #include "renderer/frame/settle_frame.h"
 #include "renderer/prepare/box_depths.h"
+#include "renderer/prepare/cluster_choice.h"
 #include "renderer/prepare/frame_geometry.h"
-#include "renderer/prepare/survey_slots.h"
-#include "renderer/prepare/tile_casters.h"
 #include "renderer/resolve/plan_input.h"
 #include "renderer/resolve/resolve_debug.h"
 

@@ -4,7 +4,7 @@
 
 #include "renderer/core/stop.h"
 #include "renderer/reference/shadow_edges.h"
-#include "renderer/shadow/edge_displacement.h"
+#include "renderer/shadow/predicted_error.h"
 
 namespace gnomon {
 namespace {

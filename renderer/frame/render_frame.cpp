@@ -4,15 +4,15 @@
 #include <iterator>
 
 #include "renderer/core/stop.h"
-#include "renderer/frame/baked_lights.h"
-#include "renderer/frame/caster_view.h"
+#include "renderer/frame/baked_scene.h"
 #include "renderer/frame/frame_views.h"
 #include "renderer/frame/frame_warnings.h"
+#include "renderer/frame/geometry_views.h"
 #include "renderer/frame/make_report.h"
 #include "renderer/frame/predicted_displacement.h"
 #include "renderer/frame/settle_frame.h"
 #include "renderer/frame/volumes_of_frame.h"
-#include "renderer/prepare/light_lists.h"
+#include "renderer/prepare/lit_light.h"
 #include "renderer/resolve/plan_input.h"
 #include "renderer/resolve/resolve_debug.h"
 #include "renderer/shadow/predicted_error.h"

@@ -22,10 +22,9 @@ struct SettledFrame {
 };
 
 /// Settles a spec, as it was asked for and past protocol/validate, on its scene and on the device that draws it; null =
-/// none does, as for a bake. Whatever draws, plans, bakes or measures a frame begins with this, so that all refuse the
-/// same: every problem that is known without drawing, each with its place in the spec. Left to what comes later are
-/// problems of a plan (settlePlan), of files that drawing reads, as broken grids, and of light maps that become too
-/// large. Any thread.
+/// none does, as for a bake. Whatever draws, plans, bakes or measures a frame begins with this. Problems: all that are
+/// known without drawing; not those of a plan (settlePlan), of files that drawing reads, and of light maps that become
+/// too large. Any thread.
 Result<SettledFrame> settleFrame(const ScenePtr& loaded, const FrameSpec& spec, const RendererInfo* device);
 
 } // namespace gnomon

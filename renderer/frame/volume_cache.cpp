@@ -3,7 +3,7 @@
 #include <set>
 
 #include "renderer/core/collect.h"
-#include "renderer/core/vec3.h"
+#include "renderer/core/linear_algebra.h"
 #include "renderer/volume/grid_file.h"
 
 namespace gnomon {

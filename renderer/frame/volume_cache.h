@@ -7,7 +7,7 @@
 #include "protocol/base/lru.h"
 #include "protocol/base/result.h"
 #include "protocol/spec/volume_options.h"
-#include "renderer/resolve/resolve_volumes.h"
+#include "renderer/resolve/resolve_nodes.h"
 #include "renderer/volume/medium.h"
 #include "renderer/volume/volume_light_store.h"
 
@@ -16,7 +16,7 @@ namespace gnomon {
 /// In the world. A problem at /box, /matrix or /node of the volume where it is flat or not finite.
 Result<VolumeSpace> spaceOf(const VolumeOptions& options, const VolumePlace& place);
 
-/// Volumes of earlier frames: grids that were read, with what their transfer functions say of them, and the light that
+/// Volumes of earlier frames: grids that were read, with their transfer functions, and the light that
 /// arrives in them. The least recently used are dropped first once either takes more than a budget, and grids of files
 /// that are in use nowhere else. For one thread.
 class VolumeCache {

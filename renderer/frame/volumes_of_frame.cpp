@@ -1,26 +1,159 @@
 #include "renderer/frame/volumes_of_frame.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <span>
+#include <type_traits>
 
 #include "protocol/base/elapsed.h"
-#include "protocol/base/text.h"
-#include "protocol/spec/frame_lights.h"
-#include "protocol/spec/limits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/core/collect.h"
-#include "renderer/core/vec3.h"
-#include "renderer/core/visibility_limit.h"
-#include "renderer/frame/light_on_volumes.h"
+#include "renderer/core/light.h"
+#include "renderer/core/linear_algebra.h"
+#include "renderer/core/parallel.h"
+#include "renderer/device/shader_data.h"
+#include "renderer/reference/trace.h"
 #include "renderer/resolve/plan_input.h"
+#include "renderer/scene/animation/node_places.h"
+#include "renderer/shaders/shared/functions.h"
+#include "renderer/volume/volume_light.h"
 
 namespace gnomon {
 namespace {
 
-constexpr double kMeanAround = 0.598; // of shared::irradianceAround, over all directions
+constexpr std::size_t kPiece = 4096; // points that a core traces at a time
 
-std::string placeOf(std::size_t volume) {
-  return "/volumes/" + std::to_string(volume);
+/// A text that differs where values do.
+class Values {
+ public:
+  template <class T>
+  Values& add(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    text_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    return *this;
+  }
+  Values& add(const std::string& text) {
+    add(text.size());
+    text_.append(text);
+    return *this;
+  }
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+void addPlace(const NodeOptions& entry, Values& text) {
+  const auto addPart = [&](const auto& part) {
+    text.add(part.has_value());
+    if (part) text.add(*part);
+  };
+  if (!hasPlace(entry)) return;
+  const int* index = std::get_if<int>(&*entry.node);
+  text.add(index != nullptr ? *index : -1);
+  if (index == nullptr) text.add(std::get<std::string>(*entry.node));
+  addPart(entry.matrix);
+  addPart(entry.translation);
+  addPart(entry.rotation);
+  addPart(entry.scale);
 }
+
+/// A frame's lights as they shine on volumes. Must not outlive the frame.
+struct ShiningLights {
+  std::vector<shared::LightData> data; ///< relative to `origin`
+  glm::dvec3 origin{0};                ///< metres; a place near to what they shine on
+  std::span<const Light> lights;
+  std::vector<int> shadowing; ///< those whose shadows fall on volumes
+};
+
+double strengthOf(const ShiningLights& shining, std::size_t light) {
+  const bool isShadowing = std::ranges::find(shining.shadowing, static_cast<int>(light)) != shining.shadowing.end();
+  return isShadowing ? shining.lights[light].shadow->strength : 0;
+}
+
+ShiningLights shiningLights(const ResolvedFrame& frame, const glm::dvec3& origin) {
+  const std::vector<Light>& lights = *frame.spec.lights;
+  return {lightData(litLights(lights, ShadowPlan{}, origin)), origin, lights, shadowingLights(frame)};
+}
+
+/// A text that differs where the lights do.
+std::string lightsText(const ShiningLights& shining) {
+  Values text;
+  for (std::size_t i = 0; i < shining.data.size(); ++i) {
+    const Light& light = shining.lights[i];
+    const shared::LightData& data = shining.data[i];
+    text.add(data.type).add(directionOf(light)).add(light.position.value_or(Vec3{})).add(data.range);
+    text.add(data.radiance).add(data.coneScale).add(data.coneOffset).add(strengthOf(shining, i));
+    text.add(light.cullingMask).add(light.shadow->blendedCasters);
+  }
+  return text.take();
+}
+
+/// A text that differs where what casts shadows on volumes does, of one file's frames.
+std::string castersText(const ResolvedFrame& frame) {
+  Values text;
+  text.add(frame.scene);
+  for (const NodeSwitches& node : frame.nodes) text.add(node.castShadow).add(node.layers);
+  std::string pose;
+  if (const auto& moment = frame.spec.animation) {
+    text.add(moment->timeSeconds).add(moment->index.value_or(-1));
+    pose = moment->name.value_or("");
+  }
+  for (const NodeOptions& entry : frame.spec.nodes) addPlace(entry, text);
+  return text.take() + pose;
+}
+
+/// The share of each light that surfaces let through to each point of a volume's map; empty for lights that all of
+/// reaches it.
+using LightShares = std::vector<std::vector<float>>;
+
+/// By rays to the middle of each light that casts shadows. `size`: of the volume's map.
+LightShares surfaceShares(const ShiningLights& shining, const TraceInput& rays, const VolumeSpace& space,
+                          const glm::ivec3& size) {
+  LightShares shares(shining.lights.size());
+  const glm::dvec3 anchor = anchorOf(rays.traced.view());
+  for (std::size_t light = 0; light < shares.size(); ++light) {
+    const double strength = strengthOf(shining, light);
+    if (strength == 0) continue;
+    const TracedLight traced(rays, static_cast<int>(light));
+    std::vector<float>& own = shares[light];
+    own.resize(pointsOf(size));
+    forEachPiece(own.size(), kPiece, [&](std::size_t first, std::size_t last) {
+      std::vector<glm::dvec3> places;
+      for (std::size_t i = first; i < last; ++i) places.push_back(latticePlace(space, size, i) - anchor);
+      const std::span<float> piece(own.data() + first, last - first);
+      traced.airVisibility(places, piece);
+      for (float& share : piece) share = static_cast<float>(1 - strength * (1 - double{share}));
+    });
+  }
+  return shares;
+}
+
+/// One a light. Refer to both, which must outlive them. `shares`: empty = no surface blocks any light.
+std::vector<ArrivalAt> arrivalsOf(const ShiningLights& shining, const LightShares& shares) {
+  std::vector<ArrivalAt> arrivals;
+  for (std::size_t i = 0; i < shining.data.size(); ++i) {
+    arrivals.push_back([&shining, &shares, i](std::size_t point, const glm::dvec3& place) {
+      const Light& light = shining.lights[i];
+      Arrival arrival;
+      glm::vec3 towards;
+      arrival.irradiance = glm::dvec3(shared::irradiance(shining.data[i], glm::vec3(place - shining.origin), towards));
+      if (traitsOf(light.type).parallel) {
+        arrival.towards = -directionOf(light);
+      } else {
+        const glm::dvec3 way = toVector(*light.position) - place;
+        arrival.distance = glm::length(way);
+        if (arrival.distance > 0) arrival.towards = way / arrival.distance;
+      }
+      if (!shares.empty() && !shares[i].empty()) arrival.surfaceVisibility = double{shares[i][point]};
+      return arrival;
+    });
+  }
+  return arrivals;
+}
+
+constexpr double kMeanAround = 0.598; // of shared::irradianceAround, over all directions
 
 /// One a volume of the spec; null = it is hidden.
 Result<std::vector<std::shared_ptr<const Medium>>> mediaOf(VolumeCache& cache, const Scene& scene,
@@ -30,25 +163,17 @@ Result<std::vector<std::shared_ptr<const Medium>>> mediaOf(VolumeCache& cache, c
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     if (frame.volumes[i].hidden()) continue;
     auto medium = cache.medium(scene.grids.at(volumes[i].file), volumes[i], frame.volumes[i]);
-    if (!medium) return placedAt(placeOf(i), medium.problems());
+    if (!medium) return placedAt("/volumes/" + std::to_string(i), medium.problems());
     media[i] = *std::move(medium);
   }
   return media;
-}
-
-/// What devices keep of volumes for each pixel takes no more than a frame may have.
-Status checkSize(const FrameSpec& spec) {
-  const std::int64_t samples = samplesOf(spec.antialiasing);
-  const std::int64_t pixel = sizeof(glm::vec4) + samples * (sizeof(float) + sizeof(std::uint16_t));
-  const std::int64_t bytes = pixel * spec.width * spec.height;
-  return checkVisibilityBytes(bytes, "/volumes", "A picture of this size takes too much memory with volumes.");
 }
 
 /// The first directional light that casts shadows: what volumes take of it shades surfaces.
 void chooseLight(const ResolvedFrame& frame, FrameVolumes& volumes) {
   for (const int light : shadowingLights(frame)) {
     const Light& source = (*frame.spec.lights)[static_cast<std::size_t>(light)];
-    if (source.type != LightType::directional || source.shadow->strength == 0) continue;
+    if (!traitsOf(source.type).parallel || source.shadow->strength == 0) continue;
     volumes.light = light;
     volumes.towards = -directionOf(source);
     return;
@@ -94,30 +219,6 @@ VolumeReport reportOf(const Medium& medium, const VolumeLightStore::Found& found
 }
 
 } // namespace
-
-Status checkVolumes(const Scene& loaded, const ResolvedFrame& frame) {
-  const std::vector<VolumeOptions>& volumes = frame.spec.volumes;
-  if (volumes.empty()) return Done{};
-  ProblemList problems;
-  const std::size_t lights = frame.spec.lights->size();
-  if (lights > static_cast<std::size_t>(kLimits.maxVolumeLights)) {
-    problems.add({ProblemCode::tooLarge, "/lights", "A frame with volumes has too many lights.",
-                  std::to_string(kLimits.maxVolumeLights), std::to_string(lights)});
-  }
-  collect(checkSize(frame.spec), problems);
-  for (std::size_t i = 0; i < volumes.size(); ++i) {
-    if (!loaded.grids.contains(volumes[i].file)) {
-      problems.add({ProblemCode::invalidValue, placeOf(i) + "/file",
-                    "The upload has no .npy or .vdb file of that name.", "", volumes[i].file});
-    }
-    if (i >= frame.volumes.size() || frame.volumes[i].hidden()) continue;
-    if (const auto space = spaceOf(volumes[i], frame.volumes[i]); !space) {
-      collect(placedAt(placeOf(i), space.problems()), problems);
-    }
-  }
-  if (problems.empty()) return Done{};
-  return std::move(problems).take();
-}
 
 Result<MadeVolumes> volumesOf(VolumeCache& cache, TracedSceneCache& traced, const SettledFrame& settled) {
   MadeVolumes made;

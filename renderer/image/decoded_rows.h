@@ -5,7 +5,7 @@
 #include <functional>
 #include <span>
 
-#include "renderer/core/unfilled.h"
+#include "renderer/core/vectors.h"
 #include "renderer/image/image_codec.h"
 
 namespace gnomon {

@@ -10,7 +10,7 @@
 #include <optional>
 #include <zlib.h>
 
-#include "renderer/core/unfilled.h"
+#include "renderer/core/vectors.h"
 
 namespace gnomon {
 namespace {

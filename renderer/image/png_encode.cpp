@@ -9,7 +9,7 @@
 
 #include "renderer/core/instruction_sets.h"
 #include "renderer/core/parallel.h"
-#include "renderer/core/unfilled.h"
+#include "renderer/core/vectors.h"
 #include "renderer/image/deflate_stripe.h"
 #include "renderer/image/png_chunks.h"
 

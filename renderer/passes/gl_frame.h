@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "renderer/device/device.h"
-#include "renderer/device/facts.h"
 #include "renderer/gl/timer.h"
 #include "renderer/passes/gpu_scene_cache.h"
 #include "renderer/passes/pass_inputs.h"

@@ -15,8 +15,8 @@
 #include "renderer/passes/draw_batch.h"
 #include "renderer/passes/gpu_scene.h"
 #include "renderer/passes/stencil/stencil_outlines.h"
+#include "renderer/prepare/cluster_choice.h"
 #include "renderer/prepare/frame_geometry.h"
-#include "renderer/prepare/tile_casters.h"
 #include "renderer/scene/node_switches.h"
 
 namespace gnomon {

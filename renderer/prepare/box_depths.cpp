@@ -7,7 +7,6 @@
 #include "renderer/shadow/depth_range.h"
 
 namespace gnomon {
-
 namespace {
 
 /// The depths d with least <= d and d <= greatest, made narrower by conditions of the form factor * d >= bound.
@@ -55,6 +54,33 @@ void widen(DepthSpan& span, const CameraView& view, const Depths& depths) {
   const auto farthest = static_cast<float>(depths.greatest + depthSlack(view, depths.greatest));
   span = span.empty() ? DepthSpan{nearest, farthest}
                       : DepthSpan{std::min(span.nearest, nearest), std::max(span.farthest, farthest)};
+}
+
+/// True where `shows` holds for any block of the footprint, given the block and the box's least depth.
+template <class Shows>
+bool anyBlock(const CameraView& view, const ReceiverDepths& depths, const Footprint& footprint, Shows shows) {
+  // Surveyed depths are floats, linearized: they may lie a few roundings nearer than the surface.
+  const double nearest = footprint.nearest - depthSlack(view, footprint.nearest) - 1e-30;
+  for (int row = footprint.firstRow; row <= footprint.lastRow; ++row) {
+    const DepthSpan* blocks = depths.blocks.data() + static_cast<std::size_t>(row) * depths.columns;
+    for (int column = footprint.firstColumn; column <= footprint.lastColumn; ++column) {
+      if (shows(blocks[column], nearest)) return true;
+    }
+  }
+  return false;
+}
+
+template <class Shows>
+std::vector<std::uint8_t> boxesThatShow(const CameraView& view, const ReceiverDepths& depths,
+                                        std::span<const Aabb> boxes, std::span<const std::uint8_t> wanted,
+                                        Shows shows) {
+  std::vector<std::uint8_t> visible(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (wanted[i] == 0) continue;
+    const auto footprint = footprintOf(view, depths, boxes[i]);
+    visible[i] = static_cast<std::uint8_t>(!footprint || anyBlock(view, depths, *footprint, shows));
+  }
+  return visible;
 }
 
 } // namespace
@@ -135,37 +161,6 @@ std::optional<Footprint> footprintOf(const CameraView& view, const ReceiverDepth
   footprint.nearest = nearest;
   return footprint;
 }
-
-namespace {
-
-/// True where `shows` holds for any block of the footprint, given the block and the box's least depth.
-template <class Shows>
-bool anyBlock(const CameraView& view, const ReceiverDepths& depths, const Footprint& footprint, Shows shows) {
-  // Surveyed depths are floats, linearized: they may lie a few roundings nearer than the surface.
-  const double nearest = footprint.nearest - depthSlack(view, footprint.nearest) - 1e-30;
-  for (int row = footprint.firstRow; row <= footprint.lastRow; ++row) {
-    const DepthSpan* blocks = depths.blocks.data() + static_cast<std::size_t>(row) * depths.columns;
-    for (int column = footprint.firstColumn; column <= footprint.lastColumn; ++column) {
-      if (shows(blocks[column], nearest)) return true;
-    }
-  }
-  return false;
-}
-
-template <class Shows>
-std::vector<std::uint8_t> boxesThatShow(const CameraView& view, const ReceiverDepths& depths,
-                                        std::span<const Aabb> boxes, std::span<const std::uint8_t> wanted,
-                                        Shows shows) {
-  std::vector<std::uint8_t> visible(boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    if (wanted[i] == 0) continue;
-    const auto footprint = footprintOf(view, depths, boxes[i]);
-    visible[i] = static_cast<std::uint8_t>(!footprint || anyBlock(view, depths, *footprint, shows));
-  }
-  return visible;
-}
-
-} // namespace
 
 std::vector<std::uint8_t> visibleBoxes(const CameraView& view, const ReceiverDepths& depths,
                                        std::span<const Aabb> boxes, std::span<const std::uint8_t> drawn) {

@@ -14,10 +14,9 @@ namespace gnomon {
 /// The blocks of a frame of that many pixels, without spans yet.
 ReceiverDepths emptyDepths(int width, int height);
 
-/// Upper bound of a survey, from boxes (eye-relative) around all that it could draw: each block spans from
-/// the nearest to the farthest point that a box has behind it, between the camera's planes, each end depthSlack
-/// farther. `drawn` marks the boxes that count. Whatever is in the boxes, the blocks of its survey show a surface only
-/// where these do, and their spans lie within these. Nothing hides anything, so that every block stays open. Pure.
+/// Upper bound of a survey, from boxes (eye-relative) around all that it could draw: each block spans from the nearest
+/// to the farthest point that a box has behind it, between the camera's planes, each end depthSlack farther. `drawn`
+/// marks the boxes that count. Nothing hides anything, so that every block stays open. Pure.
 ReceiverDepths boxDepths(const CameraView& view, int width, int height, std::span<const Aabb> boxes,
                          std::span<const std::uint8_t> drawn);
 
@@ -36,14 +35,12 @@ struct Footprint {
 /// anything.
 std::optional<Footprint> footprintOf(const CameraView& view, const ReceiverDepths& depths, const Aabb& box);
 
-/// Which of the boxes (eye-relative) may show in the picture: one byte a box, 0 = surely hidden. `drawn` marks those
-/// that the surveyed depths hold; the others are not looked at. A box is hidden where every block of pixels that it may
-/// touch shows nothing, or only surfaces nearer than the box. Never hides what is seen. Pure.
+/// Which of the boxes (eye-relative) may show in the picture: one byte a box, 0 = surely hidden: every block of pixels
+/// that it may touch shows nothing, or only nearer surfaces. `drawn` marks those that the surveyed depths hold. Pure.
 std::vector<std::uint8_t> visibleBoxes(const CameraView& view, const ReceiverDepths& depths,
                                        std::span<const Aabb> boxes, std::span<const std::uint8_t> drawn);
 
-/// The same for boxes that the depths do not hold yet: `wanted` marks them. A box is hidden where every block of pixels
-/// that it may touch is covered by surfaces nearer than the box.
+/// The same for boxes that the depths do not hold yet: hidden = every block is covered by nearer surfaces.
 std::vector<std::uint8_t> unhiddenBoxes(const CameraView& view, const ReceiverDepths& depths,
                                         std::span<const Aabb> boxes, std::span<const std::uint8_t> wanted);
 

@@ -1,22 +1,13 @@
 #include "renderer/prepare/draw_list.h"
 
 #include <algorithm>
-#include <compare>
 
 namespace gnomon {
 
 namespace {
 
-struct GroupKey {
-  int material = -1;
-  Facing facing = Facing::both;
-  bool tangents = false;
-
-  auto operator<=>(const GroupKey&) const = default;
-};
-
 struct Run {
-  GroupKey key;
+  DrawState state;
   std::uint32_t instance = 0;
   std::uint32_t firstCluster = 0; ///< of the primitive
   std::uint32_t clusterCount = 0;
@@ -40,18 +31,18 @@ bool isCulled(const Primitive& primitive, const Material& material, DrawUse use)
   return false;
 }
 
-GroupKey keyOf(const Scene& scene, const Instance& instance, DrawUse use) {
+DrawState stateOf(const Scene& scene, const Instance& instance, DrawUse use) {
   const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
   const int materialIndex = materialOf(scene, instance);
   const Material& material = scene.materials[static_cast<std::size_t>(materialIndex)];
-  GroupKey key;
-  if (use == DrawUse::surface || readsMaterial(material, use)) key.material = materialIndex;
+  DrawState state;
+  if (use == DrawUse::surface || readsMaterial(material, use)) state.material = materialIndex;
   if (isCulled(primitive, material, use)) {
     const bool mirrored = glm::determinant(glm::dmat3(instance.worldFromLocal)) < 0;
-    key.facing = mirrored ? Facing::clockwise : Facing::counterClockwise;
+    state.facing = mirrored ? Facing::clockwise : Facing::counterClockwise;
   }
-  key.tangents = use == DrawUse::surface && primitive.hasTangents && material.normal;
-  return key;
+  state.tangents = use == DrawUse::surface && primitive.hasTangents && material.normal;
+  return state;
 }
 
 void addRuns(const Scene& scene, const Instance& instance, std::uint32_t index, DrawUse use,
@@ -65,7 +56,7 @@ void addRuns(const Scene& scene, const Instance& instance, std::uint32_t index, 
     }
     const std::uint32_t first = cluster;
     while (cluster < count && keep[cluster] != 0) ++cluster;
-    runs.push_back({keyOf(scene, instance, use), index, first, cluster - first});
+    runs.push_back({stateOf(scene, instance, use), index, first, cluster - first});
   }
 }
 
@@ -82,7 +73,7 @@ DrawList buildDrawList(const Scene& scene, const SceneView& view, const FrameGeo
     const std::uint32_t first = geometry.firstSlot[i];
     addRuns(scene, view.instances[i], i, use, keep.subspan(first, geometry.firstSlot[i + 1] - first), runs);
   }
-  std::stable_sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.key < b.key; });
+  std::stable_sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.state < b.state; });
 
   DrawList list;
   for (const Run& run : runs) {
@@ -91,10 +82,7 @@ DrawList buildDrawList(const Scene& scene, const SceneView& view, const FrameGeo
     const std::uint32_t firstIndex = run.firstCluster * kClusterTriangles * 3;
     const std::uint32_t indexCount =
         std::min(run.clusterCount * kClusterTriangles * 3, primitive.indexCount - firstIndex);
-    if (list.groups.empty() ||
-        run.key != GroupKey{list.groups.back().material, list.groups.back().facing, list.groups.back().tangents}) {
-      list.groups.push_back({run.key.material, run.key.facing, run.key.tangents, list.ranges.size(), 0});
-    }
+    if (list.groups.empty() || run.state != list.groups.back()) list.groups.push_back({run.state, list.ranges.size()});
     ++list.groups.back().rangeCount;
     list.ranges.push_back({indexCount, 1, primitive.firstIndex + firstIndex,
                            static_cast<std::int32_t>(primitive.baseVertex), run.instance});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -30,11 +31,16 @@ struct DrawRange {
 /// The triangles of a group that are drawn: those whose corners go round this way as they are seen.
 enum class Facing { both, counterClockwise, clockwise };
 
-/// Ranges that share state and material.
-struct DrawGroup {
+struct DrawState {
   int material = -1; ///< -1 = any: nothing but positions matters
   Facing facing = Facing::both;
   bool tangents = false;
+
+  auto operator<=>(const DrawState&) const = default;
+};
+
+/// Ranges that share state and material.
+struct DrawGroup : DrawState {
   std::size_t firstRange = 0;
   std::size_t rangeCount = 0;
 };
@@ -52,7 +58,7 @@ bool readsMaterial(const Material& material, DrawUse use);
 DrawList buildDrawList(const Scene& scene, const SceneView& view, const FrameGeometry& geometry, DrawUse use,
                        std::span<const std::uint8_t> keep);
 
-/// The triangles of a draw list are numbered through, so that a pixel can say in one word which of them it shows.
+/// Triangles of a draw list have numbers, so that a pixel names the one that it shows by one word.
 inline constexpr std::uint32_t kNoNumber = 0xffffffffu;
 
 /// The triangle of a number.

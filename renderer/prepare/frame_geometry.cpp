@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "renderer/core/cofactors.h"
+#include "renderer/core/linear_algebra.h"
 
 namespace gnomon {
 namespace {

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "protocol/spec/scene_options.h"
+#include "renderer/core/camera_view.h"
 #include "renderer/scene/node_switches.h"
 #include "renderer/shadow/filter_kernel.h"
 #include "renderer/shadow/shadow_plan.h"
@@ -40,7 +42,7 @@ struct LitLight {
   bool fadesOut = false;                ///< at the far end of its last cascade
   bool smoothTerminator = false;        ///< receivers may be on the surface that shading shows
 
-  // What an exact technique says of it, sample by sample.
+  // Its visibility layer.
   int visibilityLayer = -1;           ///< index among the lights that have one; -1 = none
   bool layerOmitsTurnedFaces = false; ///< the layer is lit where a face is turned away from the light
 };
@@ -52,5 +54,16 @@ std::vector<LitLight> litLights(std::span<const Light> lights, const ShadowPlan&
 
 /// The lights at full strength: where they cast a shadow, it is the share of the light that is kept away.
 std::vector<LitLight> atFullStrength(std::vector<LitLight> lights);
+
+/// Frames with more lights than this are lit by lists; fewer are all tried at every pixel, which is faster then.
+inline constexpr std::size_t kLightsWithoutLists = 4;
+
+/// Pixels along a side of the squares of the picture that have a list of lights each; whole blocks of the survey.
+inline constexpr int kLightListSquare = 64;
+
+/// For each square of the picture, row by row from the TOP, where its list begins and ends; then the lists: the lights
+/// that may reach a surface in the square, in the order of `lights`. Never leaves one out that does.
+std::vector<std::uint32_t> lightLists(const CameraView& view, const ReceiverDepths& receivers,
+                                      std::span<const LitLight> lights);
 
 } // namespace gnomon

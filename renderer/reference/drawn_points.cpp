@@ -58,13 +58,13 @@ DrawnView drawnView(const Sight& sight, double scale) {
 
 DrawnLight drawnLight(const LightSource& source, const glm::dvec3& eye, double scale) {
   DrawnLight light;
-  light.directional = source.type == LightType::directional;
+  light.directional = traitsOf(source.type).parallel;
   light.radius = static_cast<float>(light.directional ? source.radius : source.radius * scale);
   light.toward = glm::vec3(-source.axis);
   light.position = glm::vec3((source.position - eye) * scale);
   light.range = static_cast<float>(source.range * scale);
   light.axis = glm::vec3(source.axis);
-  if (source.type == LightType::spot) light.cosOuter = static_cast<float>(source.cosOuter);
+  if (traitsOf(source.type).hasCone) light.cosOuter = static_cast<float>(source.cosOuter);
   return light;
 }
 

@@ -7,7 +7,7 @@
 #include "protocol/base/split_mix.h"
 #include "renderer/core/instruction_sets.h"
 #include "renderer/core/light.h"
-#include "renderer/core/vec3.h"
+#include "renderer/core/linear_algebra.h"
 
 namespace gnomon {
 namespace {
@@ -84,13 +84,9 @@ LightSource lightSource(const Light& light, const glm::dvec3& anchor) {
   source.type = light.type;
   source.axis = directionOf(light);
   source.range = light.range.value_or(HUGE_VAL);
-  if (light.type == LightType::directional) {
-    source.radius = std::tan(0.5 * glm::radians(light.angularDiameterDegrees.value_or(0.0)));
-    return source;
-  }
+  source.radius = radiusOf(light);
   if (light.position) source.position = toVector(*light.position) - anchor;
-  if (light.type == LightType::spot) source.cosOuter = std::cos(glm::radians(light.outerConeDegrees));
-  source.radius = light.radius.value_or(0.0);
+  if (traitsOf(light.type).hasCone) source.cosOuter = std::cos(glm::radians(light.outerConeDegrees));
   return source;
 }
 
@@ -104,7 +100,7 @@ LightDisc discFacing(const LightSource& light, const glm::dvec3& point) {
   LightDisc disc;
   disc.across = light.radius * glm::dvec3(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x);
   disc.up = light.radius * glm::dvec3(b, sign + n.y * n.y * a, -n.y);
-  disc.atInfinity = light.type == LightType::directional;
+  disc.atInfinity = traitsOf(light.type).parallel;
   disc.middle = disc.atInfinity ? n : light.position - point;
   return disc;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "protocol/spec/scene_options.h"
+#include "protocol/spec/traits.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/reference/ray_packet.h"
 #include "renderer/reference/trace.h"
@@ -41,7 +42,7 @@ inline WayToLight wayAlong(const glm::dvec3& offset) {
 }
 
 inline WayToLight wayTo(const LightSource& light, const glm::dvec3& point) {
-  if (light.type == LightType::directional) return {-light.axis, HUGE_VAL};
+  if (traitsOf(light.type).parallel) return {-light.axis, HUGE_VAL};
   return wayAlong(light.position - point);
 }
 
@@ -76,9 +77,9 @@ void waysTo(const LightDisc& disc, const LightSamples& samples, std::uint64_t se
 
 /// Whether the light shines as far as the end of this way, and in its direction (KHR_lights_punctual).
 inline bool reaches(const LightSource& light, const WayToLight& way) {
-  if (light.type == LightType::directional) return true;
+  if (traitsOf(light.type).parallel) return true;
   if (!(way.length > 0 && way.length < light.range)) return false;
-  return light.type == LightType::point || glm::dot(light.axis, -way.direction) > light.cosOuter;
+  return !traitsOf(light.type).hasCone || glm::dot(light.axis, -way.direction) > light.cosOuter;
 }
 
 /// A surface faces a light from this cosine on. As in renderer/shaders/common_shadow.glsl.

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "renderer/core/progress.h"
+#include "renderer/core/stop.h"
 #include "renderer/reference/trace.h"
 
 namespace gnomon {

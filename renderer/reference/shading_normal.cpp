@@ -1,6 +1,6 @@
 #include "renderer/reference/shading_normal.h"
 
-#include "renderer/core/cofactors.h"
+#include "renderer/core/linear_algebra.h"
 #include "renderer/reference/tree.h"
 #include "renderer/reference/triangle.h"
 

@@ -12,7 +12,7 @@ constexpr double kMargin = 0x1p-18;
 /// Where the light's middle lies from a point: a direction of unit length for directional lights, else metres. The
 /// light's radius is of the same measure.
 glm::dvec3 towards(const LightSource& light, const glm::dvec3& from) {
-  return light.type == LightType::directional ? -light.axis : light.position - from;
+  return traitsOf(light.type).parallel ? -light.axis : light.position - from;
 }
 
 /// A plane that a light touches from inside.
@@ -73,7 +73,7 @@ glm::vec4 endPlane(const LightSource& light, std::span<const glm::dvec3> points,
   const glm::dvec3 toLight = towards(light, middle);
   const double distance = glm::length(toLight);
   const LightPlane end{-toLight / distance, middle + toLight * (1 + light.radius / distance)};
-  if (light.type == LightType::directional || !(glm::length(end.on * scale) < 4)) return kBoundsNothing;
+  if (traitsOf(light.type).parallel || !(glm::length(end.on * scale) < 4)) return kBoundsNothing;
   return end.holds(points, kMargin / scale / 2) ? rounded(end, scale) : kBoundsNothing;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "renderer/core/cofactors.h"
+#include "renderer/core/linear_algebra.h"
 #include "renderer/reference/tree.h"
 #include "renderer/reference/triangle.h"
 
@@ -43,7 +43,7 @@ std::optional<Normals> normalsOf(const TracedScene::Tree& tree, const PlacedTria
 
 /// As seen from a point: the cosine of a plane up to which it leaves some of the light behind it.
 double leastWhole(const LightSource& light, const WayToLight& way) {
-  return std::max(kFacingCosine, light.type == LightType::directional ? light.radius : light.radius / way.length);
+  return std::max(kFacingCosine, traitsOf(light.type).parallel ? light.radius : light.radius / way.length);
 }
 
 } // namespace
@@ -82,8 +82,8 @@ bool mayFace(const TracedScene::Tree& tree, const LightSource& light, const Plac
   const double side = least > 0 ? 1.0 : -1.0;
   return std::any_of(normals->begin(), normals->end(), [&](const glm::dvec3& own) {
     const auto faced = [&](const glm::dvec3& from) { return side * glm::dot(own, wayTo(light, from).direction) > 0; };
-    return light.type == LightType::directional ? faced(triangle.a)
-                                                : faced(triangle.a) || faced(triangle.b) || faced(triangle.c);
+    return traitsOf(light.type).parallel ? faced(triangle.a)
+                                         : faced(triangle.a) || faced(triangle.b) || faced(triangle.c);
   });
 }
 

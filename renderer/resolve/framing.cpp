@@ -1,10 +1,44 @@
 #include "renderer/resolve/framing.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
+
+#include "renderer/prepare/box_depths.h"
 
 namespace gnomon {
 namespace {
+
+/// The farthest that any point of a box may lie along a direction.
+double reachOf(const Aabb& box, const glm::dvec3& direction) {
+  return glm::dot(box.center(), direction) + glm::dot(box.halfExtent(), glm::abs(direction));
+}
+
+/// The best point so far.
+struct Best {
+  double reach = -std::numeric_limits<double>::infinity();
+  glm::dvec3 point{0};
+};
+
+void look(const Scene& scene, const Instance& instance, const glm::dvec3& direction, Best& best) {
+  const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
+  const glm::dvec3 local = glm::transpose(glm::dmat3(instance.worldFromLocal)) * direction;
+  const double offset = glm::dot(glm::dvec3(instance.worldFromLocal[3]), direction);
+  constexpr std::uint32_t kClusterIndices = kClusterTriangles * 3;
+  for (std::uint32_t cluster = 0; cluster < primitive.clusterCount; ++cluster) {
+    if (reachOf(scene.clusters[primitive.firstCluster + cluster].bounds, local) + offset <= best.reach) continue;
+    const std::uint32_t begin = cluster * kClusterIndices;
+    const std::uint32_t end = std::min(primitive.indexCount, begin + kClusterIndices);
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const glm::dvec3 vertex(scene.positions[primitive.baseVertex + scene.indices[primitive.firstIndex + i]]);
+      const double reach = glm::dot(vertex, local) + offset;
+      if (!(reach > best.reach)) continue;
+      best = {reach, glm::dvec3(instance.worldFromLocal * glm::dvec4(vertex, 1.0))};
+    }
+  }
+}
 
 /// Half of the picture less its margin: as tangents, or in metres.
 glm::dvec2 usable(const CameraView& view) {
@@ -62,7 +96,63 @@ bool holdsAxis(const CameraView& view) {
 
 constexpr double kOrthographicRadii = 2.1; // from the eye to the center: well before the subject
 
+void add(std::optional<DepthInterval>& sum, const DepthInterval& depths) {
+  sum = sum ? DepthInterval{std::min(sum->near, depths.near), std::max(sum->far, depths.far)} : depths;
+}
+
+/// What the picture may show of the instances, between the planes: of all, and of those that receive shadows.
+struct ShownDepths {
+  std::optional<DepthInterval> all, receiving;
+};
+
+ShownDepths shownDepths(const CameraView& view, const SceneView& scene, std::span<const std::uint8_t> receiving) {
+  ShownDepths shown;
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const Aabb& bounds = scene.instances[i].bounds;
+    if (bounds.empty()) continue;
+    auto depths = possibleDepths(view, {bounds.min - view.eye, bounds.max - view.eye});
+    if (!depths || depths->far < view.near || depths->near > view.far) continue;
+    *depths = {std::max(depths->near, view.near), std::min(depths->far, view.far)};
+    add(shown.all, *depths);
+    if (receiving[i] != 0) add(shown.receiving, *depths);
+  }
+  return shown;
+}
+
+/// The greatest power of two that is not above it. REQUIRES: > 0.
+double powerBelow(double length) {
+  return std::exp2(std::floor(std::log2(length)));
+}
+
 } // namespace
+
+Farthest farthestOf(const Aabb& box) {
+  return [box](const glm::dvec3& direction) {
+    const glm::dvec3 side(direction.x < 0 ? -1 : 1, direction.y < 0 ? -1 : 1, direction.z < 0 ? -1 : 1);
+    return box.center() + side * box.halfExtent();
+  };
+}
+
+SeenExtent::SeenExtent(const Scene& scene, const SceneView& view, std::span<const NodeSwitches> nodes) : scene_(scene) {
+  for (const Instance& instance : view.instances) {
+    if (!switchesOf(nodes, instance.node).visible) continue;
+    instances_.push_back(&instance);
+    bounds_.add(instance.bounds);
+  }
+}
+
+glm::dvec3 SeenExtent::farthest(const glm::dvec3& direction) {
+  Best best;
+  for (const glm::dvec3& point : found_) {
+    const double reach = glm::dot(point, direction);
+    if (reach > best.reach) best = {reach, point};
+  }
+  for (const Instance* instance : instances_) {
+    if (reachOf(instance->bounds, direction) > best.reach) look(scene_, *instance, direction, best);
+  }
+  found_.push_back(best.point);
+  return best.point;
+}
 
 FramedSubject subjectOf(const Aabb& bounds, Farthest farthest) {
   if (bounds.empty()) return {farthestOf(Aabb{glm::dvec3(-0.5), glm::dvec3(0.5)}), glm::dvec3(0.0), 1};
@@ -107,6 +197,28 @@ std::optional<double> framingDistance(const CameraView& view, const glm::dvec3& 
     }
   }
   return distance;
+}
+
+CameraView movedToScene(const CameraView& view, const SceneView& scene, std::span<const std::uint8_t> receiving) {
+  if (view.perspective) return view;
+  const ShownDepths shown = shownDepths(view, scene, receiving);
+  if (!shown.all) return view;
+  const DepthInterval amid = shown.receiving.value_or(*shown.all);
+  const double picture = glm::length(view.halfSize);
+  const double step = powerBelow(std::max(amid.far - amid.near, picture)) / 4;
+  CameraView moved = view;
+  moved.ahead = std::round(0.5 * (amid.near + amid.far) / step) * step;
+  moved.eye = view.eye + view.forward * moved.ahead;
+  moved.near = view.near - moved.ahead;
+  moved.far = view.far - moved.ahead;
+
+  // Planes by steps, too: where they change, depths round otherwise.
+  const double length = std::max(shown.all->far - shown.all->near, picture);
+  const double planes = powerBelow(length) / 4;
+  const double drawnNear = (std::floor(shown.all->near / planes) - 1) * planes - moved.ahead;
+  const double drawnFar = (std::ceil(shown.all->far / planes) + 1) * planes - moved.ahead;
+  moved.drawnDepths = {std::max(moved.near, drawnNear), std::min(moved.far, drawnFar)};
+  return moved;
 }
 
 } // namespace gnomon

@@ -7,7 +7,7 @@
 
 #include "protocol/spec/frame_lights.h"
 #include "renderer/core/light.h"
-#include "renderer/core/vec3.h"
+#include "renderer/core/linear_algebra.h"
 
 namespace gnomon {
 
@@ -26,6 +26,12 @@ std::vector<int> layeredLights(const ResolvedFrame& frame) {
   return lights;
 }
 
+std::vector<int> lightsToBake(const ResolvedFrame& frame) {
+  std::vector<int> lights = layeredLights(frame);
+  std::erase_if(lights, [&](int light) { return !techniqueOf(frame, light).baked; });
+  return lights;
+}
+
 std::vector<int> mappedLights(const ResolvedFrame& frame) {
   return mappedLights(*frame.spec.lights, frame.spec);
 }
@@ -34,6 +40,40 @@ bool needsEdges(const ResolvedFrame& frame) {
   const auto& lights = *frame.spec.lights;
   return std::any_of(lights.begin(), lights.end(),
                      [](const Light& light) { return traitsOf(light.shadow->technique).needsEdges; });
+}
+
+SceneCounts shadowCounts(const Scene& scene, const SceneView& view) {
+  SceneCounts counts{.triangles = view.triangles};
+  for (const Instance& instance : view.instances) {
+    if (stopsAllLight(scene.materials[static_cast<std::size_t>(materialOf(scene, instance))])) continue;
+    counts.holed += scene.primitives[static_cast<std::size_t>(instance.primitive)].indexCount / 3;
+  }
+  return counts;
+}
+
+void chooseTechniques(const Scene& scene, DeviceKind device, std::size_t layers, ResolvedFrame& frame) {
+  std::vector<Light>& lights = *frame.spec.lights;
+  const auto isOpen = [](const Light& light) { return light.shadow->technique == ShadowTechnique::auto_; };
+  if (std::none_of(lights.begin(), lights.end(), isOpen)) return;
+  const SceneCounts counts = shadowCounts(scene, scene.scenes[static_cast<std::size_t>(frame.scene)]);
+  std::size_t used = layeredLights(frame).size() - lightsToBake(frame).size();
+  frame.choices.resize(lights.size());
+  for (const int index : shadowingLights(frame)) {
+    Light& light = lights[static_cast<std::size_t>(index)];
+    if (!isOpen(light)) continue;
+    TechniqueChoice choice = chooseTechnique(light, frame.spec, counts, device);
+    if (choice.technique == ShadowTechnique::rayTraced && used >= layers) {
+      choice.technique = ShadowTechnique::shadowMap;
+      choice.why = "Rays for so many lights would take more memory than a frame may have.";
+    }
+    used += choice.technique == ShadowTechnique::rayTraced ? 1 : 0;
+    light.shadow->technique = choice.technique;
+    frame.choices[static_cast<std::size_t>(index)] = std::move(choice);
+  }
+  // No shadow is looked for: the word in the effective spec is that of the cheapest.
+  for (Light& light : lights) {
+    if (isOpen(light)) light.shadow->technique = ShadowTechnique::shadowMap;
+  }
 }
 
 namespace {
@@ -71,8 +111,7 @@ class TakingPart {
   std::map<std::pair<int, std::uint32_t>, Aabb> bounds_;
 };
 
-} // namespace
-
+/// The lights whose maps are planned: mappedLights, and those for which technique auto chose rays.
 std::vector<int> plannedLights(const ResolvedFrame& frame) {
   std::vector<int> planned = mappedLights(frame);
   for (std::size_t i = 0; i < frame.choices.size(); ++i) {
@@ -81,15 +120,6 @@ std::vector<int> plannedLights(const ResolvedFrame& frame) {
   }
   std::sort(planned.begin(), planned.end());
   return planned;
-}
-
-std::vector<std::uint32_t> receiverParts(const ResolvedFrame& frame) {
-  std::vector<std::uint32_t> parts;
-  for (const int light : plannedLights(frame)) {
-    const std::uint32_t groups = receivingGroups(frame, light);
-    if (groups != kAllGroups && std::find(parts.begin(), parts.end(), groups) == parts.end()) parts.push_back(groups);
-  }
-  return parts;
 }
 
 PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, SeenDepths seen, int maxTextureSize) {
@@ -121,6 +151,17 @@ PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, SeenDept
     input.casters.push_back(caster);
   }
   return input;
+}
+
+} // namespace
+
+std::vector<std::uint32_t> receiverParts(const ResolvedFrame& frame) {
+  std::vector<std::uint32_t> parts;
+  for (const int light : plannedLights(frame)) {
+    const std::uint32_t groups = receivingGroups(frame, light);
+    if (groups != kAllGroups && std::find(parts.begin(), parts.end(), groups) == parts.end()) parts.push_back(groups);
+  }
+  return parts;
 }
 
 FramePlans framePlans(const ResolvedFrame& frame, const SceneView& scene, SeenDepths seen, int maxTextureSize) {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "protocol/cost/shadow_cost.h"
 #include "protocol/spec/traits.h"
 #include "renderer/resolve/resolve_frame.h"
 #include "renderer/shadow/shadow_plan.h"
@@ -16,9 +18,11 @@ std::vector<int> shadowingLights(const ResolvedFrame& frame);
 /// How the shadow of a casting light is found.
 const TechniqueTraits& techniqueOf(const ResolvedFrame& frame, int light);
 
-/// Of these, the ones whose technique says of every sample what arrives: they have a visibility layer. Those that are
-/// baked follow the others.
+/// Of these, the ones whose technique has a visibility layer. Those that are baked follow the others.
 std::vector<int> layeredLights(const ResolvedFrame& frame);
+
+/// Of the layered lights, those whose technique looks shadows up in a light map.
+std::vector<int> lightsToBake(const ResolvedFrame& frame);
 
 /// Of the lights that cast shadows, the ones that get a shadow map: those whose technique reads one, and all of them
 /// where a view shows tiles.
@@ -27,24 +31,27 @@ std::vector<int> mappedLights(const ResolvedFrame& frame);
 /// Whether some light's technique needs the edges of the casters' meshes.
 bool needsEdges(const ResolvedFrame& frame);
 
-/// The lights whose maps are planned: mappedLights, and those for which technique auto chose rays.
-std::vector<int> plannedLights(const ResolvedFrame& frame);
-
 /// The parts of what is seen that a survey reports separately, because a planned light casts shadows on them alone:
 /// receiver groups, a bit each. No part twice, and none for lights that cast shadows on all.
 std::vector<std::uint32_t> receiverParts(const ResolvedFrame& frame);
-
-/// What a frame's shadow maps are planned from: those of plannedLights. `seen`: what the camera sees, its parts those
-/// of receiverParts.
-PlanInput planInput(const ResolvedFrame& frame, const SceneView& scene, SeenDepths seen, int maxTextureSize);
 
 /// A frame's shadow maps.
 struct FramePlans {
   PlanInput input;      ///< of `drawn`
   ShadowPlan drawn;     ///< of mappedLights
   PlanInput wholeInput; ///< of `whole`
-  ShadowPlan whole;     ///< of plannedLights, where those are more; else empty
+  ShadowPlan whole;     ///< also of lights for which technique auto chose rays, where there are such; else empty
 };
+
+/// `seen`: what the camera sees, its parts those of receiverParts.
 FramePlans framePlans(const ResolvedFrame& frame, const SceneView& scene, SeenDepths seen, int maxTextureSize);
+
+/// What estimates of shadows know of a scene; its lights are left out.
+SceneCounts shadowCounts(const Scene& scene, const SceneView& view);
+
+/// Settles technique auto of every light that casts a shadow, by chooseTechnique, and keeps what was chosen in
+/// `frame.choices`. `layers`: lights whose visibility a frame may keep; beyond them lights get maps. REQUIRES: the
+/// frame has its scene.
+void chooseTechniques(const Scene& scene, DeviceKind device, std::size_t layers, ResolvedFrame& frame);
 
 } // namespace gnomon

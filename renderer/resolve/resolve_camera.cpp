@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "renderer/core/vec3.h"
+#include "renderer/core/linear_algebra.h"
 
 namespace gnomon {
 namespace {

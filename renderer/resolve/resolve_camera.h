@@ -17,10 +17,9 @@ struct ResolvedCamera {
 };
 
 /// Settles a camera on a scene and a picture of `size` pixels; what an orbit frames is `seen`, by default the box of
-/// the scene. A pose whose axes are off within what a rotation may be (protocol/spec/view_rules.cpp) keeps its view
-/// axis; the others are made perpendicular to it. Problems: a camera that the scene does not have at /camera/node; at
-/// /camera/orbit/distance an orbit without one whose lens shows the whole scene from no distance, as where the
-/// principal point lies beside the picture.
+/// the scene. A pose keeps its view axis; the others are made perpendicular to it. Problems: a camera that the scene
+/// does not have at /camera/node; at /camera/orbit/distance an orbit without one whose lens shows the whole scene from
+/// no distance.
 Result<ResolvedCamera> resolveCamera(const Camera& camera, const SceneView& scene, const glm::ivec2& size,
                                      const FramedSubject& seen);
 Result<ResolvedCamera> resolveCamera(const Camera& camera, const SceneView& scene, const glm::ivec2& size);

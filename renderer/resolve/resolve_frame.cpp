@@ -7,20 +7,31 @@
 #include "protocol/spec/frame_lights.h"
 #include "renderer/core/collect.h"
 #include "renderer/resolve/check_frame.h"
-#include "renderer/resolve/move_to_scene.h"
+#include "renderer/resolve/framing.h"
 #include "renderer/resolve/resolve_camera.h"
 #include "renderer/resolve/resolve_debug.h"
 #include "renderer/resolve/resolve_nodes.h"
-#include "renderer/resolve/seen_extent.h"
 
 namespace gnomon {
-
 namespace {
 
 std::vector<Light> lightsOf(const SceneView& scene) {
   std::vector<Light> lights;
   for (const SceneLight& light : scene.lights) lights.push_back(light.light);
   return lights;
+}
+
+std::string namesOf(const std::vector<std::string>& variants) {
+  if (variants.empty()) return "the file has no material variants";
+  return oneOf(std::vector<std::string_view>(variants.begin(), variants.end()));
+}
+
+/// Index into Scene::variants; of two of one name the first.
+Result<int> resolveVariant(const std::string& name, const Scene& scene) {
+  const auto found = std::find(scene.variants.begin(), scene.variants.end(), name);
+  if (found != scene.variants.end()) return static_cast<int>(found - scene.variants.begin());
+  return Problem{ProblemCode::invalidValue, "/materialVariant", "The file has no material variant of that name.",
+                 namesOf(scene.variants), name};
 }
 
 /// Index into Scene::scenes; -1 where the file does not have that scene.
@@ -97,22 +108,6 @@ Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec) {
   ResolvedFrame frame = resolveFrame(scene, spec, problems);
   if (!problems.empty()) return std::move(problems).take();
   return frame;
-}
-
-namespace {
-
-std::string namesOf(const std::vector<std::string>& variants) {
-  if (variants.empty()) return "the file has no material variants";
-  return oneOf(std::vector<std::string_view>(variants.begin(), variants.end()));
-}
-
-} // namespace
-
-Result<int> resolveVariant(const std::string& name, const Scene& scene) {
-  const auto found = std::find(scene.variants.begin(), scene.variants.end(), name);
-  if (found != scene.variants.end()) return static_cast<int>(found - scene.variants.begin());
-  return Problem{ProblemCode::invalidValue, "/materialVariant", "The file has no material variant of that name.",
-                 namesOf(scene.variants), name};
 }
 
 } // namespace gnomon

@@ -8,7 +8,7 @@
 #include "protocol/report/frame_report.h"
 #include "protocol/spec/frame_spec.h"
 #include "renderer/core/camera_view.h"
-#include "renderer/resolve/resolve_volumes.h"
+#include "renderer/resolve/resolve_nodes.h"
 #include "renderer/scene/node_switches.h"
 #include "renderer/scene/scene.h"
 
@@ -34,8 +34,5 @@ struct ResolvedFrame {
 /// that the file does not have.
 ResolvedFrame resolveFrame(const Scene& scene, const FrameSpec& spec, ProblemList& problems);
 Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec);
-
-/// Index into Scene::variants; of two of one name the first. A problem at /materialVariant names those there are.
-Result<int> resolveVariant(const std::string& name, const Scene& scene);
 
 } // namespace gnomon

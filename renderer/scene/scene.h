@@ -14,7 +14,7 @@
 #include "protocol/report/replies.h"
 #include "protocol/spec/scene_options.h"
 #include "renderer/core/aabb.h"
-#include "renderer/core/shared_vector.h"
+#include "renderer/core/vectors.h"
 #include "renderer/scene/scene_image.h"
 
 namespace gnomon {

@@ -8,7 +8,7 @@
 #include "common_debug.glsl"
 
 // What a shadow map does to an edge that runs through a pixel: its texel as it lies on the surface, and where the bias has
-// the point looked up (renderer/shadow/edge_displacement.h). Pixels, y up; view depth 0 where the light reaches no
+// the point looked up (renderer/shadow/predicted_error.h). Pixels, y up; view depth 0 where the light reaches no
 // surface that receives its shadow.
 layout(location = 0) out uvec4 lengths; // shift, texel u and texel v as two halves each; tile of the light
 layout(location = 1) out uvec4 place;   // view depth; octahedral normal; radius of the penumbra, texels

@@ -8,7 +8,6 @@
 #include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon {
-
 namespace {
 
 constexpr double kDefaultGuard = 1.0;
@@ -109,6 +108,19 @@ PlannedRange heldOrMoved(const CameraView& view, const DepthInterval& surfaces, 
   return {base, covered, movedNote(previous, surfaces, outside)};
 }
 
+constexpr double kBlendShare = 0.2;
+
+/// Where the logarithm begins for a range that reaches the eye or lies behind it, as a share of the range's length.
+constexpr double kSubstituteNear = 1e-3;
+/// Where it begins at the nearest, likewise: else most cascades would lie within centimetres of the eye.
+constexpr double kLeastNear = 1e-4;
+
+double logarithmicSplit(const DepthInterval& range, double fraction) {
+  const double length = range.far - range.near;
+  const double near = range.near > 0.0 ? std::max(range.near, kLeastNear * length) : kSubstituteNear * length;
+  return range.near + near * (std::pow((near + length) / near, fraction) - 1.0);
+}
+
 } // namespace
 
 double depthSlack(const CameraView& view, double depth) {
@@ -132,23 +144,6 @@ std::optional<PlannedRange> depthRangeOf(const CameraView& view, const ReceiverD
   return heldOrMoved(view, surfaces, {options.previous->near, options.previous->far},
                      options.guardDistance.value_or(kDefaultGuard));
 }
-
-namespace {
-
-constexpr double kBlendShare = 0.2;
-
-/// Where the logarithm begins for a range that reaches the eye or lies behind it, as a share of the range's length.
-constexpr double kSubstituteNear = 1e-3;
-/// Where it begins at the nearest, likewise: else most cascades would lie within centimetres of the eye.
-constexpr double kLeastNear = 1e-4;
-
-double logarithmicSplit(const DepthInterval& range, double fraction) {
-  const double length = range.far - range.near;
-  const double near = range.near > 0.0 ? std::max(range.near, kLeastNear * length) : kSubstituteNear * length;
-  return range.near + near * (std::pow((near + length) / near, fraction) - 1.0);
-}
-
-} // namespace
 
 std::vector<double> splitDistances(const Partition& partition, int cascadeCount, const DepthInterval& range) {
   const double length = range.far - range.near;

@@ -18,9 +18,8 @@ struct DepthInterval {
   double far = 0;
 };
 
-/// How far a depth that a shader computes may lie from the surveyed one: metres, at view depth `depth`. Floats and a
-/// 32-bit depth buffer keep 6e-8 of the depth (perspective) or of far - near (orthographic); this leaves room for the
-/// handful of roundings between them.
+/// How far a depth that a shader computes may lie from the surveyed one: metres, at view depth `depth`. Floats keep
+/// 6e-8 of the depth (perspective) or of far - near (orthographic); this leaves room for a handful of roundings.
 double depthSlack(const CameraView& view, double depth);
 
 /// The depths of a light's cascades; near < far in both.
@@ -35,17 +34,16 @@ struct PlannedRange {
 /// Automatic: from the nearest to the farthest surface, widened by depthSlack. Manual: min and max beyond the camera's
 /// near plane, as asked; REQUIRES: both. A range too thin to be cut is widened.
 /// Automatic with a previous range: that range and the guard on both ends, within the camera's near and far planes. An
-/// end beyond which a surface lies moves outwards by as many steps of a tenth as it takes; one that could move inwards
-/// by a factor of two does so: near to near / 1.1^n or near * 2^n, far to far * 1.1^n or far / 2^n (the steps of
-/// Stride's automatic depth range). An end that is not in front of the eye, which only an orthographic camera gives,
-/// has no factors: the range is then this frame's as soon as a surface lies outside or it is twice as long as it need
-/// be. What comes out depends on the previous range and this frame, and on nothing else.
+/// end beyond which a surface lies moves outwards by steps of a tenth; one that could move inwards by a factor of two
+/// does so: near to near / 1.1^n or near * 2^n, far to far * 1.1^n or far / 2^n (the steps of Stride's automatic depth
+/// range). Where an end is not in front of the eye, which only an orthographic camera gives, the range is this frame's
+/// as soon as a surface lies outside or it is twice as long as it need be.
 std::optional<PlannedRange> depthRangeOf(const CameraView& view, const ReceiverDepths& receivers,
                                          const DepthRange& options);
 
 /// The distances between cascades: n cascades, n + 1 view depths, strictly increasing. The first is range.near; the
-/// last is range.far, except in mode manual where the last fraction is less than 1: the rest is uncovered by choice.
-/// Manual: range.near + fraction * length, one cascade for each fraction (cascadeCount is not looked at).
+/// last is range.far, except in mode manual where the last fraction is less than 1.
+/// Manual: range.near + fraction * length, one cascade for each fraction; cascadeCount is ignored.
 /// Logarithmic: Zhang et al., "Parallel-Split Shadow Maps for Large-scale Virtual Environments", 2006, with
 /// pssmFactor = 1 - lambda. A range that begins nearer than a ten-thousandth of its length, as a manual one does at a
 /// near plane, is laid out as if it began there; one with range.near <= 0, which only an orthographic camera gives, as
@@ -59,8 +57,8 @@ struct CascadeInterval {
   double blendNear = 0; ///< where it begins to fade into the next, or to lit; = far where it does not fade
 };
 
-/// A blend zone is the last 20 % of a cascade's own interval between its splits. The next cascade serves from the
-/// beginning of that zone, so that both have texels for every pixel in it. The last cascade fades only on `fadeOut`.
+/// A blend zone is the last 20 % of a cascade's own interval between its splits; the next cascade serves it, too. The
+/// last cascade fades only on `fadeOut`.
 std::vector<CascadeInterval> cascadeIntervals(const std::vector<double>& splits, bool blendCascades, bool fadeOut);
 
 } // namespace gnomon

@@ -7,7 +7,6 @@
 #include "protocol/spec/enum_rows.h"
 
 namespace gnomon {
-
 namespace {
 
 /// What a filter type is, whatever its size.
@@ -28,6 +27,8 @@ constexpr std::array kFilters{
     FilterTraits{FilterType::pcss, MapReadingKind::pcss, MapReadingKind::pcss, false, false},
 };
 static_assert(rowsAreComplete(kFilters, &FilterTraits::type));
+
+constexpr double kFloatRounding = 0x1p-24; ///< of a float operation, relative; also the step of floats below 1
 
 } // namespace
 
@@ -50,12 +51,6 @@ FilterKernel kernelOf(const Filter& filter, double lightRadius) {
   kernel.border = static_cast<int>(std::ceil(kernel.reach)) + 1;
   return kernel;
 }
-
-namespace {
-
-constexpr double kFloatRounding = 0x1p-24; ///< of a float operation, relative; also the step of floats below 1
-
-} // namespace
 
 double biasReach(const FilterKernel& kernel) {
   return kBiasReach + (kernel.moments ? kernel.reach : 0.0);

@@ -7,30 +7,29 @@
 
 namespace gnomon {
 
-/// How a shadow map is read.
+/// How a shadow map is read; by the numbers of shaders (GNOMON_FILTER_KERNEL ...).
 enum class MapReadingKind {
   texels, ///< comparisons over a square of texels
   disc,   ///< comparisons over a disc of the world
-  pcss,   ///< the same, as wide as the penumbra of the casters that a search finds
-  vsm,    ///< moments of blurred depths, as all that follow
+  vsm,    ///< moments of blurred depths, as the next two
   evsm,
-  msm
+  msm,
+  pcss ///< comparisons over a disc as wide as the penumbra of the casters that a search finds
 };
 
-/// What a filter reads around the point that it is asked for: all that any stage knows of a filter.
+/// What a filter reads around a point: all that any stage uses of a filter.
 struct FilterKernel {
   MapReadingKind kind = MapReadingKind::texels;
   int size = 1;           ///< texels along a side that are compared or blurred; 1 with a radius
   double radius = 0;      ///< metres around the point that are read besides; 0 = none
   double lightRadius = 0; ///< pcss: of the light, see radiusOf in renderer/core/light.h
   bool moments = false;   ///< the map's depths are blurred, not compared one by one
-  /// Texels along an axis to the farthest texel centre that gets a weight. A comparison is bilinear: it weighs centres
-  /// up to 1 away. hard is one of them; pcf is `size` of them a texel apart, the outermost (size - 1) / 2 away. So it
-  /// is the row's r + 0.5 with the bilinear kernel's r = size / 2: 1 (hard), 2, 3, 4 (pcf 3, 5, 7).
-  /// Moments are blurred over as many texels and looked up bilinearly: the same. With a radius a tap's own: 1.
+  /// Texels along an axis to the farthest texel centre that gets a weight. A comparison or a lookup of moments is
+  /// bilinear: it weighs centres up to 1 away; `size` of them, a texel apart, reach (size + 1) / 2. With a radius a
+  /// tap's own: 1.
   double reach = 1;
-  /// Texels that a tile keeps on each side, so that a lookup at the edge of what it serves stays inside: the reach, the
-  /// half texel between a centre and its edge, and the rest of a texel for the rounding of coordinates.
+  /// Texels that a tile keeps on each side, so that a lookup at the edge of what it serves stays inside, however
+  /// coordinates are rounded.
   int border = 2;
 };
 
@@ -45,8 +44,7 @@ inline constexpr double kTexelNoise = 1.0 / 32.0;
 /// grid (GL_SUBPIXEL_BITS >= 4: half a step is 1/32 texel), and a float position finds its texel to within kTexelNoise.
 inline constexpr double kBiasReach = 1.0 / 32.0 + kTexelNoise;
 
-/// The same of one filter. Blurred depths can't be held against a plane one by one: their bias covers the kernel's
-/// reach.
+/// The same of one filter: the bias of blurred depths covers the kernel's reach, too.
 double biasReach(const FilterKernel& kernel);
 
 /// Metres of normal offset that a blur's radius needs: to the corner of the square that it takes in.

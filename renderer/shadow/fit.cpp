@@ -7,7 +7,6 @@
 #include "renderer/shadow/penumbra_reach.h"
 
 namespace gnomon {
-
 namespace {
 
 constexpr double kNearShare = 1e-3; ///< of the far end of depths from a point, where they begin at least
@@ -33,7 +32,7 @@ double clearance(const FitTarget& target, double depthLength, double width) {
   return target.kernel.moments ? std::max(depthLength, 0.25 * width) : 0.0;
 }
 
-/// Where a tile's depths begin that must hold these: pcss asks how far the casters are, and a clamped one doesn't say.
+/// Where a tile's depths begin that must hold these: pcss needs the depths of casters unclamped.
 double beginOfDepths(double near, const FitTarget& target) {
   if (!target.nearestCaster) return near;
   return std::min(near, *target.nearestCaster - 2.0 * depthRounding(target.magnitude));
@@ -47,6 +46,20 @@ double offsetWithRoom(const glm::dvec2& extent, double reach, int inner, double 
   const double halfB = constant + 2.0 * c2 * (extent.x + extent.y);
   const double squares = c2 * (extent.x * extent.x + extent.y * extent.y) - constant * constant;
   return (halfB + std::sqrt(halfB * halfB + a * squares)) / a;
+}
+
+/// The frame that a light straight from `pole` gets; the opposite of `pole` is the direction where the field spins.
+struct PoleFrame {
+  glm::dvec3 right, up, pole;
+};
+
+PoleFrame poleFrame() {
+  const double azimuth = glm::radians(37.3);
+  const double elevation = glm::radians(11.0);
+  const glm::dvec3 pole(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                        -std::cos(azimuth) * std::cos(elevation));
+  const glm::dvec3 right(std::cos(azimuth), 0, std::sin(azimuth));
+  return {right, glm::cross(pole, right), pole};
 }
 
 } // namespace
@@ -188,24 +201,6 @@ Fit punctualFit(const Aabb& seen, double tanHalf, const FitTarget& target) {
   fit.depthExtent = far - fit.depthNear;
   return fit;
 }
-
-namespace {
-
-/// The frame that a light straight from `pole` gets; the opposite of `pole` is the direction where the field spins.
-struct PoleFrame {
-  glm::dvec3 right, up, pole;
-};
-
-PoleFrame poleFrame() {
-  const double azimuth = glm::radians(37.3);
-  const double elevation = glm::radians(11.0);
-  const glm::dvec3 pole(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
-                        -std::cos(azimuth) * std::cos(elevation));
-  const glm::dvec3 right(std::cos(azimuth), 0, std::sin(azimuth));
-  return {right, glm::cross(pole, right), pole};
-}
-
-} // namespace
 
 // The pole's frame carried to the light along a great circle (Frisvad, "Building an Orthonormal Basis from a 3D Unit
 // Vector Without Normalization", 2012). Frisvad's 1 / (1 + z) cancels near z = -1 (Duff et al., "Building an

@@ -31,10 +31,9 @@ inline glm::dmat4 lightFromRelative(const LightBasis& basis, const glm::dvec3& o
   return matrix;
 }
 
-/// The basis for a unit direction. It depends on nothing but the direction and turns as little as it: at the vertical,
-/// where a basis made from a world "up" jumps, the roll changes about as much as the light moved. A tangent field on
-/// the sphere must spin somewhere; here that is around light shining up from a point 11 degrees below the horizon,
-/// where no sun is. There too the basis is finite and orthonormal.
+/// The basis for a unit direction. It depends on nothing but the direction and turns as little as it, also at the
+/// vertical. A tangent field on the sphere must spin somewhere; here that is around light shining up from a point 11
+/// degrees below the horizon, where no sun is.
 LightBasis lightBasis(const glm::dvec3& direction);
 
 /// Metres from the eye to the farthest point of a slice: what a view sees between two depths.

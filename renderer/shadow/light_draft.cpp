@@ -6,6 +6,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "protocol/spec/frame_lights.h"
+#include "protocol/spec/traits.h"
 #include "renderer/core/parallel.h"
 #include "renderer/shadow/depth_range.h"
 #include "renderer/shadow/receiver_pieces.h"
@@ -70,9 +71,8 @@ std::vector<Aabb> receiversIn(const LightFace& face, const ShadowCaster& caster,
   return receivers;
 }
 
-/// The basis turned about its direction so that a rectangle around what the light reaches is small: the same tile is
-/// that much sharper. Not for stable tiles, for it changes with the camera. Where what is seen fills the cone, no turn
-/// is better than another.
+/// The basis turned about its direction so that a rectangle around what the light reaches is small. Not for stable
+/// tiles, for it changes with the camera.
 LightBasis turnedTo(const std::vector<glm::dvec3>& samples, const ShadowCaster& caster, const LightFace& face) {
   constexpr double kLeastSaved = 0.1; // of the area
   const double range = endOf(caster);
@@ -116,16 +116,15 @@ void addNote(PlannedLight& light, const std::string& note) {
 }
 
 std::vector<LightFace> facesOf(const ShadowCaster& light) {
-  if (light.type == LightType::spot && light.outerCone <= glm::radians(kWidestTileDegrees)) {
+  const LightTraits& kind = traitsOf(light.type);
+  if (kind.hasCone && light.outerCone <= glm::radians(kWidestTileDegrees)) {
     return {{lightBasis(light.direction), std::tan(light.outerCone)}};
   }
-  const bool spot = light.type == LightType::spot;
-  const LightBasis front = spot ? lightBasis(light.direction) : LightBasis{};
+  const LightBasis front = kind.hasCone ? lightBasis(light.direction) : LightBasis{};
   const std::array<LightBasis, 6> cube = cubeFaces(front);
   static_assert(kSidesBegin < glm::pi<double>() / 3); // every spot that comes here is wider
-  const std::size_t count = spot ? 5 : 6;             // no cone narrower than a half space reaches the back
   std::vector<LightFace> faces;
-  for (std::size_t i = 0; i < count; ++i) faces.push_back({cube[i], 1.0});
+  for (std::size_t i = 0; i < kind.cubeFaces; ++i) faces.push_back({cube[i], 1.0});
   return faces;
 }
 

@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <span>
 #include <vector>
+
+#include "renderer/core/camera_view.h"
 
 namespace gnomon {
 namespace {
@@ -14,32 +15,10 @@ namespace {
 constexpr std::array<std::array<unsigned, 4>, 6> kSides{
     {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 5, 7, 6}}};
 
-/// The points p where dot(normal, p) is at most `limit`.
-struct HalfSpace {
-  glm::dvec3 normal{0};
-  double limit = 0;
-};
-
-/// The part of a convex polygon in a half space (Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974).
-std::vector<glm::dvec3> clipped(const std::vector<glm::dvec3>& polygon, const HalfSpace& within) {
-  std::vector<glm::dvec3> kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const glm::dvec3& from = polygon[i];
-    const glm::dvec3& to = polygon[(i + 1) % polygon.size()];
-    const double before = glm::dot(within.normal, from) - within.limit;
-    const double after = glm::dot(within.normal, to) - within.limit;
-    if (before <= 0) kept.push_back(from);
-    if ((before < 0 && after > 0) || (before > 0 && after < 0)) {
-      kept.push_back(glm::mix(from, to, before / (before - after)));
-    }
-  }
-  return kept;
-}
-
-/// The least z of the part of a box that lies in all of these; none where none does. REQUIRES: that part has its
+/// The least z of the part of a box that lies inside of all planes; none where none does. REQUIRES: that part has its
 /// nearest point in the box's surface.
 std::optional<double> nearestWithin(const Aabb& box, const glm::dmat4& lightFromBox,
-                                    std::span<const HalfSpace> within) {
+                                    const std::array<glm::dvec4, 4>& planes) {
   if (box.empty()) return std::nullopt;
   std::array<glm::dvec3, 8> corners;
   for (unsigned i = 0; i < corners.size(); ++i) {
@@ -51,7 +30,7 @@ std::optional<double> nearestWithin(const Aabb& box, const glm::dmat4& lightFrom
   for (const auto& side : kSides) {
     std::vector<glm::dvec3> polygon;
     for (const unsigned corner : side) polygon.push_back(corners[corner]);
-    for (const HalfSpace& half : within) polygon = clipped(polygon, half);
+    for (const glm::dvec4& plane : planes) polygon = clipped(polygon, plane);
     for (const glm::dvec3& point : polygon) nearest = std::min(nearest.value_or(point.z), point.z);
   }
   return nearest;
@@ -62,9 +41,8 @@ std::optional<double> nearestWithin(const Aabb& box, const glm::dmat4& lightFrom
 // A box over a rectangle is convex, and so lowest in a corner; each of its corners lies on a side of the box.
 std::optional<double> nearestOver(const Aabb& box, const glm::dmat4& lightFromBox, const glm::dvec2& lowest,
                                   const glm::dvec2& highest) {
-  const HalfSpace within[] = {
-      {{1, 0, 0}, highest.x}, {{-1, 0, 0}, -lowest.x}, {{0, 1, 0}, highest.y}, {{0, -1, 0}, -lowest.y}};
-  return nearestWithin(box, lightFromBox, within);
+  return nearestWithin(box, lightFromBox,
+                       {{{-1, 0, 0, highest.x}, {1, 0, 0, -lowest.x}, {0, -1, 0, highest.y}, {0, 1, 0, -lowest.y}}});
 }
 
 // The same holds in a pyramid, unless the box holds its apex: then that is the nearest.
@@ -72,9 +50,8 @@ std::optional<double> nearestInPyramid(const Aabb& box, const glm::dmat4& lightF
                                        const glm::dvec2& highest) {
   const glm::dvec3 apex(glm::inverse(lightFromBox) * glm::dvec4(0, 0, 0, 1));
   if (!box.empty() && glm::clamp(apex, box.min, box.max) == apex) return 0.0;
-  const HalfSpace within[] = {
-      {{1, 0, -highest.x}, 0}, {{-1, 0, lowest.x}, 0}, {{0, 1, -highest.y}, 0}, {{0, -1, lowest.y}, 0}};
-  return nearestWithin(box, lightFromBox, within);
+  return nearestWithin(box, lightFromBox,
+                       {{{-1, 0, highest.x, 0}, {1, 0, -lowest.x, 0}, {0, -1, highest.y, 0}, {0, 1, -lowest.y, 0}}});
 }
 
 PenumbraReach penumbraReach(const Aabb& receiversLs, const Aabb& scene, const glm::dmat4& lightFromScene,

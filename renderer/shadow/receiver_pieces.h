@@ -12,10 +12,9 @@
 
 namespace gnomon {
 
-/// The surfaces that the camera sees in a cascade, as small boxes in light space relative to the eye; none where it
-/// sees none there. Conservative: together they hold the whole piece of view behind each survey block, half a pixel
-/// wider on every side, between the block's nearest and farthest depth, cut to the cascade, each end depthSlack
-/// farther. Deep pieces are cut along the depth, so that a box is not much larger than what it holds.
+/// The surfaces that the camera sees in a cascade, as small boxes in light space relative to the eye. Conservative:
+/// together they hold the whole piece of view behind each survey block, half a pixel wider on every side, between the
+/// block's nearest and farthest depth, cut to the cascade, each end depthSlack farther.
 std::vector<Aabb> receiverPieces(const CameraView& view, const ReceiverDepths& receivers, const LightBasis& basis,
                                  const CascadeInterval& cascade);
 
@@ -37,8 +36,7 @@ LightBasis rolled(const LightBasis& basis, double angle);
 double rollOfLeastArea(std::span<const glm::dvec2> points, double leastSaved = 0);
 
 /// For a tight fit: the basis turned so that a box around the receivers in a cascade spends few texels on what is not
-/// seen. Views of a ground need a fraction of the area that an arbitrary roll takes, so the same tile is that much
-/// sharper. It follows a sample of the survey, hence every move of the camera: nothing for a stable fit.
+/// seen. It changes with every move of the camera.
 LightBasis tightBasis(const CameraView& view, const ReceiverDepths& receivers, const LightBasis& basis,
                       const CascadeInterval& cascade);
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "protocol/spec/frame_lights.h"
+#include "protocol/spec/traits.h"
 #include "renderer/core/parallel.h"
 #include "renderer/shadow/depth_range.h"
 #include "renderer/shadow/filter_kernel.h"
@@ -48,7 +49,7 @@ SeenSurfaces seenSurfaces(const CameraView& view, const ReceiverDepths& receiver
 std::map<int, SeenSurfaces> surfacesOfParts(const PlanInput& input) {
   std::map<int, SeenSurfaces> seen;
   for (const ShadowCaster& caster : input.casters) {
-    if (caster.type == LightType::directional || seen.contains(caster.part)) continue;
+    if (traitsOf(caster.type).parallel || seen.contains(caster.part)) continue;
     const ReceiverDepths& receivers = receiversOf(input, caster);
     seen[caster.part] = receivers.range.empty() ? SeenSurfaces{} : seenSurfaces(input.view, receivers);
   }
@@ -67,7 +68,7 @@ LightDraft draftLight(const ShadowCaster& caster, const PlanInput& input, const 
     draft.planned.note = *reason;
   } else if (draft.planned.askedTileSize == 0) {
     draft.planned.note = "what it reaches is out of view";
-  } else if (caster.type == LightType::directional) {
+  } else if (traitsOf(caster.type).parallel) {
     draftCascades(caster, input, draft);
   } else {
     draftFaces(caster, input, seen.at(caster.part), draft);
@@ -187,7 +188,7 @@ void addMagnitude(const TileDraft& draft, const LightDraft& light, const ShadowC
   constexpr double kRoom = 4; // for the roundings of a quotient
   const double fromAnchor = glm::length(anchoredOrigin(input, draft));
   const double extent = extentOf(input, caster);
-  const double fromEye = light.stable ? extent : glm::length(draft.origin); // a stable fit knows no eye
+  const double fromEye = light.stable ? extent : glm::length(draft.origin); // a stable fit does not depend on the eye
   target.magnitude = std::max(fromEye, fromAnchor) + seen.max.z * (1.0 + std::sqrt(2.0) * draft.tanHalf);
   if (!light.stable) {
     const glm::dvec3 eye = draft.basis.lightFromWorld() * -draft.origin;
@@ -230,7 +231,7 @@ ShadowTile planTile(const TileDraft& draft, const LightDraft& light, const Shado
   target.tileSize = light.planned.grantedTileSize;
   target.kernel = tile.filter;
   target.manualOffset = manualOffset(caster.shadow.bias);
-  const bool parallel = caster.type == LightType::directional;
+  const bool parallel = traitsOf(caster.type).parallel;
   const Fit fit =
       parallel ? cascadeFit(draft, light, caster, input, target) : faceFit(draft, light, caster, input, target);
 

@@ -9,10 +9,10 @@
 #include <numeric>
 #include <tuple>
 
+#include "protocol/spec/traits.h"
 #include "renderer/core/camera_view.h"
 
 namespace gnomon {
-
 namespace {
 
 bool isInView(const CameraView& view, const Sphere& sphere) {
@@ -35,34 +35,6 @@ double projectedDiameter(const CameraView& view, const Sphere& sphere) {
   return std::tan(offAxis + halfAngle) - std::tan(offAxis - halfAngle);
 }
 
-} // namespace
-
-// A cone of half angle a up to 45 degrees, cut by a sphere of radius R about its apex, fits the sphere through apex and
-// rim; a wider one the sphere about its rim.
-Sphere reachOf(const ShadowCaster& light) {
-  if (light.type == LightType::point) return {light.position, light.range};
-  const double cosine = std::cos(light.outerCone);
-  if (light.outerCone <= glm::radians(45.0)) {
-    const double radius = light.range / (2.0 * cosine);
-    return {light.position + light.direction * radius, radius};
-  }
-  return {light.position + light.direction * (light.range * cosine), light.range * std::sin(light.outerCone)};
-}
-
-int lightSize(const ShadowCaster& light, const CameraView& view, int frameWidth, int frameHeight) {
-  const int longest = std::max(frameWidth, frameHeight);
-  if (light.type == LightType::directional || light.range <= 0) return longest;
-  const Sphere sphere = reachOf(light);
-  if (!isInView(view, sphere)) return 0;
-  if (view.perspective && glm::length(sphere.center) <= sphere.radius) return longest;
-  const double across = view.perspective ? projectedDiameter(view, sphere) : 2.0 * sphere.radius;
-  // Along the finer side of pixels that are no squares.
-  const double pixels = across * std::max(frameWidth / (2.0 * view.halfSize.x), frameHeight / (2.0 * view.halfSize.y));
-  return static_cast<int>(std::ceil(std::min<double>(pixels, longest)));
-}
-
-namespace {
-
 std::int64_t areaOf(std::span<const TileRequest> requests, const std::vector<int>& sizes) {
   std::int64_t area = 0;
   for (std::size_t i = 0; i < requests.size(); ++i) {
@@ -71,15 +43,16 @@ std::int64_t areaOf(std::span<const TileRequest> requests, const std::vector<int
   return area;
 }
 
-/// The request to halve next, or the number of requests where none may shrink further.
-std::size_t nextToHalve(std::span<const TileRequest> requests, const std::vector<int>& sizes) {
+/// The request that yields first: of those that may, that of the least importance, the largest tiles and the highest
+/// light; their number where none may.
+template <class MayYield>
+std::size_t firstToYield(std::span<const TileRequest> requests, const std::vector<int>& sizes, const MayYield& may) {
+  const auto yields = [&](std::size_t i) {
+    return std::tuple(-static_cast<int>(requests[i].importance), sizes[i], requests[i].light);
+  };
   std::size_t best = requests.size();
   for (std::size_t i = 0; i < requests.size(); ++i) {
-    if (sizes[i] <= kSmallestTile || requests[i].tileCount == 0) continue;
-    const auto yields = [&](std::size_t r) {
-      return std::tuple(-static_cast<int>(requests[r].importance), sizes[r], requests[r].light);
-    };
-    if (best == requests.size() || yields(i) > yields(best)) best = i;
+    if (may(i) && (best == requests.size() || yields(i) > yields(best))) best = i;
   }
   return best;
 }
@@ -113,6 +86,30 @@ int evenBits(std::uint64_t bits) {
 
 } // namespace
 
+// A cone of half angle a up to 45 degrees, cut by a sphere of radius R about its apex, fits the sphere through apex and
+// rim; a wider one the sphere about its rim.
+Sphere reachOf(const ShadowCaster& light) {
+  if (!traitsOf(light.type).hasCone) return {light.position, light.range};
+  const double cosine = std::cos(light.outerCone);
+  if (light.outerCone <= glm::radians(45.0)) {
+    const double radius = light.range / (2.0 * cosine);
+    return {light.position + light.direction * radius, radius};
+  }
+  return {light.position + light.direction * (light.range * cosine), light.range * std::sin(light.outerCone)};
+}
+
+int lightSize(const ShadowCaster& light, const CameraView& view, int frameWidth, int frameHeight) {
+  const int longest = std::max(frameWidth, frameHeight);
+  if (traitsOf(light.type).parallel || light.range <= 0) return longest;
+  const Sphere sphere = reachOf(light);
+  if (!isInView(view, sphere)) return 0;
+  if (view.perspective && glm::length(sphere.center) <= sphere.radius) return longest;
+  const double across = view.perspective ? projectedDiameter(view, sphere) : 2.0 * sphere.radius;
+  // Along the finer side of pixels that are no squares.
+  const double pixels = across * std::max(frameWidth / (2.0 * view.halfSize.x), frameHeight / (2.0 * view.halfSize.y));
+  return static_cast<int>(std::ceil(std::min<double>(pixels, longest)));
+}
+
 std::vector<int> grantTileSizes(std::span<const TileRequest> requests, int atlasSide) {
   const std::int64_t room = static_cast<std::int64_t>(atlasSide) * atlasSide;
   std::vector<bool> refused(requests.size(), atlasSide < kSmallestTile);
@@ -122,21 +119,15 @@ std::vector<int> grantTileSizes(std::span<const TileRequest> requests, int atlas
       if (!refused[i]) sizes[i] = std::min(requests[i].size, atlasSide);
     }
     while (areaOf(requests, sizes) > room) {
-      const std::size_t halved = nextToHalve(requests, sizes);
+      const std::size_t halved = firstToYield(
+          requests, sizes, [&](std::size_t i) { return sizes[i] > kSmallestTile && requests[i].tileCount > 0; });
       if (halved == requests.size()) break;
       sizes[halved] /= 2;
     }
     if (areaOf(requests, sizes) <= room) return grown(requests, std::move(sizes), atlasSide);
 
-    std::size_t last = requests.size();
-    for (std::size_t i = 0; i < requests.size(); ++i) {
-      if (refused[i]) continue;
-      const auto yields = [&](std::size_t r) {
-        return std::pair(-static_cast<int>(requests[r].importance), requests[r].light);
-      };
-      if (last == requests.size() || yields(i) > yields(last)) last = i;
-    }
-    refused[last] = true;
+    const std::vector<int> noSizes(requests.size());
+    refused[firstToYield(requests, noSizes, [&](std::size_t i) { return !refused[i]; })] = true;
   }
 }
 

@@ -6,7 +6,6 @@
 #include "renderer/shadow/shadow_plan.h"
 
 namespace gnomon {
-
 namespace {
 
 /// Least and greatest of x / z over a box's x and z, z > 0.
@@ -16,6 +15,24 @@ glm::dvec2 quotients(double low, double high, double near, double far) {
 
 double depthFar(const Fit& fit) {
   return fit.depthNear + fit.depthExtent;
+}
+
+// Far above the rounding of doubles, far below a texel.
+constexpr double kRounding = 1e-7;
+
+/// First and last cell of a stretch of clip space, cut to the tile; none where first > last.
+struct Cells {
+  int first = 0;
+  int last = -1;
+};
+
+Cells cellsOf(double low, double high) {
+  if (high < -1.0 || low > 1.0) return {};
+  const auto cell = [](double clip) {
+    return std::clamp(static_cast<int>((std::clamp(clip, -1.0, 1.0) * 0.5 + 0.5) * ReceiverMask::kSide), 0,
+                      ReceiverMask::kSide - 1);
+  };
+  return {cell(low), cell(high)};
 }
 
 } // namespace
@@ -62,28 +79,6 @@ Aabb clipBox(const TileSpace& space, const Aabb& boxLs) {
   const auto z = [&](double depth) { return depthFar(fit) * (1.0 - fit.depthNear / depth) / fit.depthExtent; };
   return {glm::dvec3(onTile({x[0], y[0]}), z(near)), glm::dvec3(onTile({x[1], y[1]}), z(far))};
 }
-
-namespace {
-
-// Far above the rounding of doubles, far below a texel.
-constexpr double kRounding = 1e-7;
-
-/// First and last cell of a stretch of clip space, cut to the tile; none where first > last.
-struct Cells {
-  int first = 0;
-  int last = -1;
-};
-
-Cells cellsOf(double low, double high) {
-  if (high < -1.0 || low > 1.0) return {};
-  const auto cell = [](double clip) {
-    return std::clamp(static_cast<int>((std::clamp(clip, -1.0, 1.0) * 0.5 + 0.5) * ReceiverMask::kSide), 0,
-                      ReceiverMask::kSide - 1);
-  };
-  return {cell(low), cell(high)};
-}
-
-} // namespace
 
 bool ReceiverMask::mayShadow(const Aabb& box) const {
   const Cells columns = cellsOf(box.min.x - kRounding, box.max.x + kRounding);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "renderer/core/parallel.h"
-#include "renderer/core/unfilled.h"
+#include "renderer/core/vectors.h"
 #include "renderer/techniques/picture_points.h"
 
 namespace gnomon {

@@ -7,7 +7,7 @@
 
 #include "renderer/core/parallel.h"
 #include "renderer/core/stop.h"
-#include "renderer/core/unfilled.h"
+#include "renderer/core/vectors.h"
 #include "renderer/techniques/neighbours.h"
 #include "renderer/techniques/penumbra_filter.h"
 

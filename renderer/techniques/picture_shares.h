@@ -12,7 +12,7 @@
 
 #include "renderer/core/parallel.h"
 #include "renderer/core/rect.h"
-#include "renderer/core/unfilled.h"
+#include "renderer/core/vectors.h"
 #include "renderer/techniques/picture_points.h"
 
 namespace gnomon {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "renderer/core/unfilled.h"
+#include "renderer/core/vectors.h"
 #include "renderer/techniques/picture_points.h"
 
 namespace gnomon {

@@ -7,6 +7,7 @@
 #include "protocol/job/job_json.h"
 #include "protocol/sequence/sequence_json.h"
 #include "protocol/sequence/video_frames.h"
+#include "protocol/spec/traits.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/job_reply.h"
 #include "server/handlers/sequence_reply.h"
@@ -46,7 +47,7 @@ struct AskedSequence {
 /// Whether the frame's shadows may depend on the frame before it: the scene's own lights may be directional, too.
 bool mayCarry(const FrameSpec& spec) {
   return !spec.lights || std::any_of(spec.lights->begin(), spec.lights->end(),
-                                     [](const Light& light) { return light.type == LightType::directional; });
+                                     [](const Light& light) { return traitsOf(light.type).parallel; });
 }
 
 Result<AskedSequence> read(Services& services, const RouteCall& call) {

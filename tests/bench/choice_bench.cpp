@@ -12,7 +12,7 @@
 
 #include "protocol/json/json_codec.h"
 #include "renderer/render.h"
-#include "renderer/resolve/choose_techniques.h"
+#include "renderer/resolve/plan_input.h"
 #include "tests/bench/gathered_scenes.h"
 #include "tests/support/files.h"
 

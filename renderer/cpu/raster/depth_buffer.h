@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "renderer/core/unfilled.h"
+#include "renderer/core/vectors.h"
 
 namespace gnomon::cpu {
 

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/core/unfilled.h"
+#include "renderer/core/vectors.h"
 #include "renderer/cpu/lanes/gather-inl.h"
 #include "renderer/cpu/lanes/vectors-inl.h"
 #include "renderer/cpu/raster/raster_view.h"

@@ -20,7 +20,7 @@ struct ShowJob {
   const Textures& textures;
   const DepthBuffer& buffer; ///< numbered; data has one sample a pixel
   const ShadowMaps& maps;
-  std::span<const std::uint32_t> lightLists; ///< prepare/light_lists.h; empty = every light may reach every pixel
+  std::span<const std::uint32_t> lightLists; ///< lightLists; empty = every light may reach every pixel
   View view = View::color;
   bool encoded = true; ///< as in ViewRequest
   bool fine = false;   ///< as in ViewRequest

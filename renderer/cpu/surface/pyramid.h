@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "renderer/core/unfilled.h"
+#include "renderer/core/vectors.h"
 #include "renderer/image/image.h"
 #include "renderer/image/image_codec.h"
 

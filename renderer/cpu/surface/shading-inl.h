@@ -16,7 +16,7 @@ namespace gnomon::cpu::HWY_NAMESPACE {
 /// The lights of a frame.
 struct Lighting {
   std::span<const LightData> lights;
-  std::span<const std::uint32_t> lists; ///< prepare/light_lists.h; empty = every light may reach every pixel
+  std::span<const std::uint32_t> lists; ///< lightLists; empty = every light may reach every pixel
 };
 
 HWY_INLINE SurfacePoint pointOf(const Surface& surface) {

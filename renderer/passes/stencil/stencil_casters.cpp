@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "renderer/core/camera_view.h"
-#include "renderer/core/flat_transform.h"
+#include "renderer/core/linear_algebra.h"
 
 namespace gnomon {
 namespace {

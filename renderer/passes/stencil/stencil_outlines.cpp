@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "protocol/spec/traits.h"
 #include "renderer/core/light.h"
-#include "renderer/core/vec3.h"
+#include "renderer/core/linear_algebra.h"
 #include "renderer/scene/geometry/welding.h"
 
 namespace gnomon {
@@ -62,7 +63,7 @@ std::size_t bytesOf(const std::vector<EdgeMesh>& meshes) {
 }
 
 glm::dvec4 placeOf(const Light& light) {
-  if (light.type == LightType::directional) return {-directionOf(light), 0.0};
+  if (traitsOf(light.type).parallel) return {-directionOf(light), 0.0};
   return {toVector(*light.position), 1.0};
 }
 

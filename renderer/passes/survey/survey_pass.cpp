@@ -12,7 +12,7 @@
 #include "renderer/passes/draw_batch.h"
 #include "renderer/passes/shader_variants.h"
 #include "renderer/prepare/box_depths.h"
-#include "renderer/prepare/survey_slots.h"
+#include "renderer/prepare/cluster_choice.h"
 
 namespace gnomon {
 

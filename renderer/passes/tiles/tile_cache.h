@@ -7,7 +7,7 @@
 #include "protocol/base/lru.h"
 #include "renderer/core/rect.h"
 #include "renderer/gl/texture.h"
-#include "renderer/prepare/tile_casters.h"
+#include "renderer/prepare/cluster_choice.h"
 
 namespace gnomon {
 

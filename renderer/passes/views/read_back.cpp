@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "renderer/core/parallel.h"
-#include "renderer/core/unfilled.h"
+#include "renderer/core/vectors.h"
 #include "renderer/device/view_image.h"
 #include "renderer/prepare/named_tiles.h"
 

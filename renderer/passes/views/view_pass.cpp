@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "protocol/spec/traits.h"
-#include "renderer/core/visibility_limit.h"
 #include "renderer/device/shader_data.h"
 #include "renderer/gl/draw.h"
+#include "renderer/resolve/check_frame.h"
 
 namespace gnomon {
 
@@ -58,7 +58,7 @@ ViewVariant lightVariant(const PassInputs& inputs, const Shading& shading, bool 
   variant.lights = static_cast<int>(shading.spec.lights->size());
   variant.lightLists = shading.lightLists;
   for (const LitLight& light : shading.lights) {
-    variant.punctual = variant.punctual || light.type != LightType::directional;
+    variant.punctual = variant.punctual || !traitsOf(light.type).parallel;
     if (light.tileCount == 0 || (layersDecide && light.visibilityLayer >= 0)) continue;
     variant.tiles = std::max(variant.tiles, light.tileCount);
     variant.shadows.kinds.insert(filterKind(light.filter));

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "renderer/core/vec3.h"
+#include "renderer/core/linear_algebra.h"
 #include "renderer/scene/found_nodes.h"
 
 namespace gnomon {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "renderer/core/aabb.h"
-#include "renderer/core/flat_transform.h"
+#include "renderer/core/linear_algebra.h"
 #include "renderer/core/stop.h"
 #include "renderer/scene/animation/samplers.h"
 #include "renderer/scene/graph/attachments.h"

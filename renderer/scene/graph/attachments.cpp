@@ -6,8 +6,9 @@
 #include <numbers>
 #include <utility>
 
+#include "protocol/spec/traits.h"
 #include "renderer/core/aabb.h"
-#include "renderer/core/vec3.h"
+#include "renderer/core/linear_algebra.h"
 #include "renderer/scene/document/gltf_document.h"
 #include "renderer/scene/geometry/accessor_view.h"
 #include "renderer/scene/graph/node_tree.h"
@@ -142,9 +143,9 @@ void checkLights(std::vector<gltf::PunctualLight>& lights, Findings& findings) {
     if (!std::isfinite(light.intensity * brightest(light))) {
       found.invalid(pointer + "/intensity", "Multiplied by the color it is no finite number.");
     }
-    if (light.type == LightType::spot && light.spot) {
+    if (traitsOf(light.type).hasCone && light.spot) {
       checkCone(*light.spot, pointer + "/spot/innerConeAngle", found);
-    } else if (light.type == LightType::spot) {
+    } else if (traitsOf(light.type).hasCone) {
       found.invalid(pointer + "/spot", "A spot light needs the member spot.");
     }
     light.fault = findings.leaveOut(std::move(found), "the light is left out");
@@ -154,8 +155,8 @@ void checkLights(std::vector<gltf::PunctualLight>& lights, Findings& findings) {
 Light lightFrom(const gltf::PunctualLight& source) {
   Light light;
   light.type = source.type;
-  if (light.type != LightType::directional && std::isfinite(source.range)) light.range = source.range;
-  if (light.type == LightType::spot) {
+  if (!traitsOf(light.type).parallel && std::isfinite(source.range)) light.range = source.range;
+  if (traitsOf(light.type).hasCone) {
     light.innerConeDegrees = degrees(source.spot->inner);
     light.outerConeDegrees = degrees(source.spot->outer);
     if (light.outerConeDegrees > kWidestConeDegrees) {
@@ -182,17 +183,18 @@ std::optional<FileLight> lightAt(const gltf::Model& model, std::size_t node, Fin
   light.light.node = static_cast<int>(node);
   light.light.name = keptName(holder.name.empty() ? source.name : holder.name, findings);
   light.light.light = lightFrom(source);
-  if (source.type == LightType::spot && degrees(source.spot->outer) > kWidestConeDegrees) {
+  if (traitsOf(source.type).hasCone && degrees(source.spot->outer) > kWidestConeDegrees) {
     findings.warn("The light at node " + std::to_string(node) + " has a cone of 90 degrees; it is drawn with 89.9.");
   }
   return light;
 }
 
 std::optional<SceneLight> placedAt(const glm::dmat4& worldFromUnscaled, SceneLight light) {
+  const LightTraits& kind = traitsOf(light.light.type);
   NodeFrame frame;
-  if (!frameOf(worldFromUnscaled, frame) && light.light.type != LightType::point) return std::nullopt;
-  if (light.light.type != LightType::point) light.light.direction = toTriple(frame.forward);
-  if (light.light.type != LightType::directional) light.light.position = toTriple(frame.position);
+  if (!frameOf(worldFromUnscaled, frame) && kind.directed) return std::nullopt;
+  if (kind.directed) light.light.direction = toTriple(frame.forward);
+  if (!kind.parallel) light.light.position = toTriple(frame.position);
   return light;
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "renderer/core/aabb.h"
-#include "renderer/core/cofactors.h"
+#include "renderer/core/linear_algebra.h"
 
 namespace gnomon {
 

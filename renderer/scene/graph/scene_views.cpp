@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "renderer/core/aabb.h"
-#include "renderer/core/flat_transform.h"
+#include "renderer/core/linear_algebra.h"
 #include "renderer/scene/graph/attachments.h"
 
 namespace gnomon {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "renderer/core/cofactors.h"
+#include "renderer/core/linear_algebra.h"
 #include "renderer/core/stop.h"
 #include "renderer/scene/geometry/mesh_build.h"
 #include "renderer/scene/geometry/welding.h"

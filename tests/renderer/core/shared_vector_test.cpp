@@ -1,6 +1,6 @@
-#include "renderer/core/shared_vector.h"
-
 #include <gtest/gtest.h>
+
+#include "renderer/core/vectors.h"
 
 namespace gnomon {
 namespace {

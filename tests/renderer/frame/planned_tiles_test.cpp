@@ -1,7 +1,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "protocol/spec/frame_lights.h"
-#include "renderer/frame/plan_frame.h"
+#include "renderer/frame/frame.h"
 #include "tests/renderer/frame/squares.h"
 
 namespace gnomon {

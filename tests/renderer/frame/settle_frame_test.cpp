@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/frame/plan_frame.h"
+#include "renderer/frame/frame.h"
 #include "tests/renderer/frame/squares.h"
 
 namespace gnomon {

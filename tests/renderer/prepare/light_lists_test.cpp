@@ -1,8 +1,7 @@
-#include "renderer/prepare/light_lists.h"
-
 #include <algorithm>
 #include <gtest/gtest.h>
 
+#include "renderer/prepare/lit_light.h"
 #include "tests/renderer/shadow/random_plan.h"
 
 namespace gnomon {

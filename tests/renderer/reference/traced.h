@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "renderer/core/vec3.h"
+#include "renderer/core/linear_algebra.h"
 #include "renderer/reference/reference.h"
 #include "tests/renderer/scene/load.h"
 

@@ -1,6 +1,6 @@
-#include "renderer/resolve/resolve_volumes.h"
-
 #include <gtest/gtest.h>
+
+#include "renderer/resolve/resolve_nodes.h"
 
 namespace gnomon {
 namespace {

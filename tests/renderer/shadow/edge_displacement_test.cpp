@@ -1,8 +1,8 @@
-#include "renderer/shadow/edge_displacement.h"
-
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+
+#include "renderer/shadow/predicted_error.h"
 
 namespace gnomon {
 namespace {

@@ -1,9 +1,7 @@
-#include "renderer/core/flat_transform.h"
+#include "renderer/core/linear_algebra.h"
 
 #include <algorithm>
 #include <cmath>
-
-#include "renderer/core/cofactors.h"
 
 namespace gnomon {
 namespace {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <memory>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -40,5 +41,25 @@ class SharedVector {
  private:
   std::shared_ptr<std::vector<T>> values_;
 };
+
+/// Of vectors whose new elements hold anything until they are written: a large one takes no memory before.
+template <class T>
+struct Unfilled : std::allocator<T> {
+  template <class U>
+  struct rebind {
+    using other = Unfilled<U>;
+  };
+  template <class U>
+  void construct(U* at) noexcept {
+    ::new (static_cast<void*>(at)) U;
+  }
+  template <class U, class... From>
+  void construct(U* at, From&&... from) {
+    ::new (static_cast<void*>(at)) U(std::forward<From>(from)...);
+  }
+};
+
+template <class T>
+using UnfilledVector = std::vector<T, Unfilled<T>>;
 
 } // namespace gnomon

@@ -3,7 +3,17 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
+#include "protocol/spec/scene_options.h"
+
 namespace gnomon {
+
+/// Between the vocabulary's triples and glm's vectors.
+inline glm::dvec3 toVector(const Vec3& v) {
+  return {v[0], v[1], v[2]};
+}
+inline Vec3 toTriple(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
 
 /// What turns the area of a surface as `m` turns the surface: the inverse transpose times the determinant. It needs no
 /// division, so that matrices that flatten have it too: there it is a multiple of the normal of what they flatten to.
@@ -21,5 +31,11 @@ inline glm::dvec3 unitOr(const glm::dvec3& v, const glm::dvec3& otherwise) {
   const double length = glm::length(v);
   return std::isfinite(length) && length > 0 ? v / length : otherwise;
 }
+
+/// Whether a transform leaves nothing of a body's volume; so does one that is not finite.
+bool isFlat(const glm::dmat4& matrix);
+
+/// Whether a transform leaves not even a surface, but a line or a point; so does one that is not finite.
+bool hasNoArea(const glm::dmat4& matrix);
 
 } // namespace gnomon
