@@ -114,7 +114,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::require(same(cpu.problems(), gl.problems()), "the same problems");
     return 0;
   }
-  const std::string difference = testing::differenceOf(*cpu, *gl);
+  const std::string difference = testing::differenceOf(*cpu, *gl).what;
   fuzz::require(difference.empty(), difference.c_str());
   return 0;
 }

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Writes the bounds of hard cases from what a run of test_hard_cases measured (hard_cases.json in its build folder):
-every metric and a third on top, and three pixels; of techniques that trace, a hundred-thousandth. Look at what changed: a bound that grows is a fault or needs a reason.
+every metric and a third on top, and three pixels; of techniques that trace, a hundred-thousandth. Of three receivers or
+fewer no share but an exact one has a bound. Look at what changed: a bound that grows is a fault or needs a reason.
 
 usage: set_bounds.py HARD_CASES.json [CASE...]      without cases: those that have no bounds yet for some technique
 """
@@ -21,6 +22,10 @@ def rounded_up(value):
         return 0
     step = 10.0 ** (math.floor(math.log10(value)) - 1)
     return float(f"{math.ceil(value / step - 1e-9) * step:.6g}")
+
+
+def can_be_bounded(way, metrics):
+    return metrics and metrics["receivers"] > (0 if way in TRACED else 3)
 
 
 def bounds_of(way, metrics):
@@ -58,7 +63,8 @@ def main(measured_file, *names):
         with open(path) as file:
             case = json.load(file)
         old = {} if name in names else case["bounds"]
-        case["bounds"] = {way: old.get(way) or bounds_of(way, metrics) for way, metrics in ways.items() if metrics}
+        case["bounds"] = {way: old.get(way) or bounds_of(way, metrics) for way, metrics in ways.items()
+                          if can_be_bounded(way, metrics)}
         with open(path, "w") as file:
             file.write(text_of(case))
 

@@ -1,12 +1,12 @@
 // A frame shows the scene as its animation has it, and so do the shadows, the plan and the rays.
 #include "tests/renderer/frame_fixture.h"
 #include "tests/renderer/scene/animation/animated.h"
+#include "tests/renderer/smooth_mesh.h"
 
 namespace gnomon {
 namespace {
 
 using testing::floatsOf;
-using testing::refusedJson;
 using testing::renderJson;
 using testing::sceneOf;
 using testing::valueAt;
@@ -16,17 +16,7 @@ using testing::valueAt;
 ScenePtr flight() {
   testing::GlbBuilder builder = testing::plane();
   builder.json["nodes"][0]["scale"] = {10, 1, 10};
-  std::vector<glm::vec3> corners;
-  for (const float x : {-1.0f, 1.0f}) {
-    for (const float y : {-1.0f, 1.0f}) {
-      for (const float z : {-1.0f, 1.0f}) corners.emplace_back(x, y, z);
-    }
-  }
-  const std::vector<std::uint32_t> faces{0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
-                                         2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
-  builder.addMeshNode(
-      builder.addMesh({{"attributes", {{"POSITION", builder.addAccessor(corners, "VEC3", 5126, corners.size())}}},
-                       {"indices", builder.addIndices(faces)}}));
+  builder.addMeshNode(testing::addCube(builder));
   builder.json["nodes"][1]["translation"] = {-6, 4, 0};
   animate(builder, 1, "translation", {0, 2}, {-6, 4, 0, 6, 4, 0}, "VEC3");
   return sceneOf(builder);
@@ -78,22 +68,6 @@ TEST(AnimatedFrames, WithoutAnAnimationAFrameShowsTheRestPose) {
   EXPECT_EQ(floatsOf(renderJson(scene, atTime(spec, 7).dump())), floatsOf(renderJson(scene, atTime(spec, 2).dump())));
 }
 
-TEST(AnimatedFrames, RaysMeetTheSamePose) {
-  const ScenePtr scene = flight();
-  const Frame frame = renderJson(scene, atTime(specOf({"shadow", "reference"}), 0.5).dump());
-  const std::vector<float>& shown = floatsOf(frame, 0);
-  const std::vector<float>& truth = floatsOf(frame, 1);
-  ASSERT_EQ(shown.size(), truth.size());
-  std::size_t wrong = 0;
-  std::size_t dark = 0;
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    wrong += (shown[i] >= 0.5f) != (truth[i] >= 0.5f) ? 1 : 0;
-    dark += truth[i] < 0.5f ? 1 : 0;
-  }
-  EXPECT_GT(dark, 60u) << "the shadow of 2 m by 2 m";
-  EXPECT_LT(wrong, 40u) << "at its edges";
-}
-
 /// A ground that shows its color, which fades from red to green, and from blue to black in the variant "night".
 ScenePtr fading() {
   testing::GlbBuilder builder = testing::plane();
@@ -140,16 +114,6 @@ TEST(AnimatedFrames, APlanIsOfThePose) {
     return plan ? plan->lights.at(0).casterTriangles : 0;
   };
   EXPECT_LT(castersAt(0), castersAt(1.333)) << "far from what is seen, and then casting on it";
-}
-
-TEST(AnimatedFrames, UnknownAnimationsAreRefused) {
-  const ScenePtr scene = flight();
-  Json unknown = specOf({"shadow"});
-  unknown["animation"] = {{"index", 3}};
-  const auto refused = planFrame(scene, *decodeFrameSpec(unknown.dump()), testing::sharedRenderer().info());
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.problems()[0].pointer, "/animation/index");
-  EXPECT_EQ(refusedJson(scene, unknown.dump()).at(0).pointer, "/animation/index");
 }
 
 } // namespace

@@ -144,16 +144,6 @@ TEST(BlendedCasters, X34_AThresholdCastsAllOrNothing) {
   }
 }
 
-TEST(BlendedCasters, G2_WhatIsWhollyTransparentCastsNothing) {
-  const ScenePtr scene = sheetOver("BLEND", 0);
-  for (const char* mode : {"dither", "threshold"}) {
-    for (const Json& light : kLights) {
-      const Frame frame = renderJson(scene, spec(light, mode, 1).dump());
-      for (const float visibility : floatsOf(frame)) ASSERT_NEAR(visibility, 1.0f, 1e-5f) << mode << light;
-    }
-  }
-}
-
 TEST(BlendedCasters, X34_WhatIsDitheredDoesNotShadowItself) {
   const ScenePtr scene = sheetOver("BLEND", 0.75);
   for (const Json& light : kLights) {

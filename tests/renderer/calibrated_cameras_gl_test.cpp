@@ -113,19 +113,8 @@ const std::vector<Crop> kQuarters{{0, 0, kWidth, kHeight},
                                   {kWidth, kHeight, kWidth, kHeight}};
 
 TEST(CalibratedCameras, AnOffCentrePictureIsTheCropOfALargerOne) {
-  const Json spec = wholeSpec({{"views", {"color", "depth", "position", "normal", "shadow", "reference"}}});
+  const Json spec = wholeSpec({{"views", {"color", "depth", "position", "normal", "shadow", "reference", "ids"}}});
   for (const Crop& quarter : kQuarters) expectCrop(testing::generatedScene("box_on_plane"), spec, quarter);
-}
-
-TEST(CalibratedCameras, IdsAreThoseOfTheCrop) {
-  const Json spec = wholeSpec({{"views", {"ids"}}});
-  const ScenePtr scene = testing::generatedScene("box_on_plane");
-  const Crop middle{kWidth / 2, 3, kWidth, kHeight};
-  const Frame whole = renderJson(scene, spec.dump());
-  const Frame part = renderJson(scene, cropped(spec, middle).dump());
-  const std::vector<float>& ids = floatsOf(part);
-  EXPECT_LE(compare(whole.images[0].image, part.images[0].image, middle, 0).differ, 1e-3);
-  EXPECT_NE(*std::min_element(ids.begin(), ids.end()), *std::max_element(ids.begin(), ids.end()));
 }
 
 TEST(CalibratedCameras, APictureWhollyBesideTheAxisIsTheCropOfAVeryWideOne) {
@@ -187,42 +176,6 @@ TEST(CalibratedCameras, PointsShowWhereTheFormulaOfCalibrationSays) {
   }
 }
 
-TEST(CalibratedCameras, CornersOfACheckerboardAreWithinHalfAPixel) {
-  // Squares of half a metre on the ground, as far as the box leaves them in sight.
-  Json spec = wholeSpec({{"views", {"position"}}});
-  spec = cropped(spec, {kWidth / 2, kHeight + 10, kWidth, kHeight - 10});
-  const Frame frame = renderJson(testing::generatedScene("box_on_plane"), spec.dump());
-  const std::vector<float>& points = floatsOf(frame);
-  int found = 0;
-  for (double x = -8; x <= 8; x += 0.5) {
-    for (double z = -8; z <= 8; z += 0.5) {
-      const glm::dvec2 pixel = openCvPixel(spec["camera"], {x, 0, z});
-      const auto column = std::lround(pixel.x), row = std::lround(pixel.y);
-      if (column < 0 || row < 0 || column >= spec["width"] || row >= spec["height"]) continue;
-      const float* p = points.data() + 3 * static_cast<std::size_t>(row * kWidth + column);
-      if (!std::isfinite(p[0]) || std::abs(p[1]) > 1e-3) continue; // the box hides it
-      ++found;
-      const glm::dvec2 shown = openCvPixel(spec["camera"], {p[0], p[1], p[2]});
-      EXPECT_NEAR(shown.x, pixel.x, 0.51) << x << ' ' << z;
-      EXPECT_NEAR(shown.y, pixel.y, 0.51) << x << ' ' << z;
-    }
-  }
-  EXPECT_GT(found, 20);
-}
-
-TEST(CalibratedCameras, ExactShadowsAreAsExactOffCentre) {
-  for (const double stretch : {1.0, 0.2, 3.0}) { // of pixels
-    for (const Crop& quarter : kQuarters) {
-      Json spec = cropped(wholeSpec({{"views", {"error"}}}), quarter);
-      spec["camera"]["intrinsics"]["fx"] = stretch * kFocal;
-      const Frame frame = renderJson(testing::generatedScene("box_on_plane"), spec.dump());
-      ASSERT_TRUE(frame.report.error);
-      EXPECT_GT(frame.report.error->receivers, kWidth * kHeight / 20);
-      EXPECT_LT(frame.report.error->misclassified, 1e-4);
-    }
-  }
-}
-
 /// Share of a crop's pixels where a map's shadow is on the wrong side of one half.
 double wrongShare(const Frame& frame, const Crop& crop) {
   const Image& image = frame.images[0].image;
@@ -277,27 +230,6 @@ TEST(CalibratedCameras, VolumesAreWhereTheCropHasThem) {
   const Json spec = wholeSpec(
       {{"volumes", Json::array({volume})}, {"shadow", {{"technique", "shadowMap"}}}, {"views", {"color", "shadow"}}});
   for (const Crop& quarter : kQuarters) expectCrop(testing::sceneOf(bundle), spec, quarter, 2e-3, 2e-3);
-}
-
-TEST(CalibratedCameras, TheEffectiveCameraGivesTheSamePicture) {
-  const ScenePtr scene = testing::generatedScene("box_on_plane");
-  Json spec = cropped(wholeSpec({{"shadow", {{"technique", "shadowMap"}}}}), kQuarters[0]);
-  const Frame once = renderJson(scene, spec.dump());
-  const Frame twice = renderJson(scene, toJson(once.report.spec).dump());
-  EXPECT_EQ(floatsOf(once), floatsOf(twice));
-  EXPECT_TRUE(once.report.spec == twice.report.spec);
-}
-
-TEST(CalibratedCameras, TheWidestAndTheNarrowestLensAreDrawn) {
-  const ScenePtr scene = testing::generatedScene("box_on_plane");
-  for (const double focal : {1e-3, 1e9}) {
-    for (const double principal : {-1e7, 79.5, 1e7}) {
-      Json spec = wholeSpec({{"width", kWidth}, {"height", kHeight}, {"shadow", {{"technique", "shadowMap"}}}});
-      spec["camera"]["intrinsics"] = {{"fx", focal}, {"fy", focal}, {"cx", principal}, {"cy", principal}};
-      const Frame frame = renderJson(scene, spec.dump());
-      for (const float value : floatsOf(frame)) ASSERT_TRUE(std::isfinite(value)) << focal;
-    }
-  }
 }
 
 } // namespace

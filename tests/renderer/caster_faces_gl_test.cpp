@@ -77,16 +77,6 @@ TEST(CasterFaces, G4_AMirroredNodeCastsAsAMirroredMeshDoes) {
   }
 }
 
-TEST(CasterFaces, G4_AMirroredSolidDoesNotShadowItsLitFaces) {
-  testing::GlbBuilder builder = testing::cube();
-  builder.json["nodes"][0]["scale"] = {-1, 1, 1};
-  const ScenePtr scene = testing::sceneOf(builder);
-  for (const Json& light : kLights) {
-    const Frame frame = renderJson(scene, spec(light, 3).dump()); // its top fills the picture
-    for (const float visibility : floatsOf(frame)) ASSERT_NEAR(visibility, 1.0f, 1e-5f) << light;
-  }
-}
-
 TEST(CasterFaces, X34_ACardCastsWhicheverWayItFaces) {
   const auto over = [](const Json& node, bool doubleSided) {
     testing::GlbBuilder builder = ground();

@@ -7,7 +7,6 @@ namespace {
 
 using testing::floatsOf;
 using testing::generatedScene;
-using testing::refusedJson;
 using testing::renderJson;
 
 const Json kEast = {{"type", "directional"}, {"sun", {{"azimuthDegrees", 90}, {"elevationDegrees", 40}}}};
@@ -157,45 +156,9 @@ TEST(DebugLight, D4_FourDepthsATexelAreReadAsTheNearest) {
   EXPECT_GT(nearer, one.size() / 2) << "on a slope some sample is nearer than the middle";
 }
 
-TEST(DebugLight, M15_TheAtlasOutlinesEachTileInItsTint) {
-  const Json spec = {{"width", 96},
-                     {"height", 54},
-                     {"camera", {{"node", "camera"}}},
-                     {"views", {"atlas", "tile"}},
-                     {"shadow", {{"size", "Small"}}}};
-  const Frame frame = renderJson(generatedScene("long_row"), spec.dump());
-  const Image& atlas = frame.images[0].image;
-  ASSERT_EQ(atlas.channels.size(), 3u);
-  const auto at = [&](int x, int y) {
-    const auto& bytes = std::get<std::vector<std::uint8_t>>(atlas.pixels);
-    const auto first = static_cast<std::size_t>((atlas.height - 1 - y) * atlas.width + x) * 3;
-    return std::array<int, 3>{bytes.at(first), bytes.at(first + 1), bytes.at(first + 2)};
-  };
-  // 0.3, 0.35, 0.5 and 0.8 in sRGB are 149, 160, 188 and 231.
-  const std::array<std::array<int, 3>, 4> tints{{{160, 255, 160}, {160, 188, 255}, {231, 160, 255}, {255, 149, 149}}};
-  for (std::size_t i = 0; i < tints.size(); ++i) {
-    const auto& [x, y, width, height] = frame.report.lights[0].tiles.at(i).tile;
-    EXPECT_EQ(at(x, y), tints[i]) << i;
-    EXPECT_EQ(at(x + width - 1, y + height / 2), tints[i]) << i;
-    EXPECT_EQ(at(x + width / 2, y + height - 1), tints[i]) << i;
-    const auto inside = at(x + width / 2, y + height / 2);
-    EXPECT_TRUE(inside[0] == inside[1] && inside[1] == inside[2]) << "grey within";
-  }
-  EXPECT_EQ(frame.images[1].image.channels, std::vector<std::string>{"Y"});
-}
-
-TEST(DebugLight, ALightThatTheSceneDoesNotHaveIsAProblem) {
-  Json spec = exrOf({"shadow"});
-  spec["debug"]["light"] = 3;
-  const Problems problems = refusedJson(generatedScene("lights"), spec.dump());
-  ASSERT_EQ(problems.size(), 1u);
-  EXPECT_EQ(problems[0].pointer, "/debug/light");
-  EXPECT_EQ(problems[0].limit, "0..2");
-  EXPECT_EQ(problems[0].actual, "3");
-}
-
 TEST(DebugLight, TheOrderOfTheViewsChangesNone) {
-  const std::vector<std::string> views{"casterIds", "color", "bias", "tile", "texelDensity", "atlas", "cascades"};
+  const std::vector<std::string> views{"casterIds", "color", "bias",     "tile",   "texelDensity",
+                                       "atlas",     "depth", "cascades", "normal", "shadow"};
   const std::vector<std::string> turned(views.rbegin(), views.rend());
   const Frame one = renderJson(generatedScene("box_on_plane"), exrOf(views).dump());
   const Frame other = renderJson(generatedScene("box_on_plane"), exrOf(turned).dump());

@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/renderer/frame_fixture.h"
+#include "tests/renderer/gathered_scene.h"
 #include "tests/renderer/made_grids.h"
 #include "tests/support/files.h"
-#include "tests/support/gathered_model.h"
 
 namespace gnomon {
 namespace {
@@ -30,11 +30,6 @@ struct Shown {
   ScenePtr scene;
 };
 
-ScenePtr gathered(const fs::path& assets, const nlohmann::json& model) {
-  auto scene = loadScene(testing::gatheredBundle(assets, model));
-  return scene ? *scene : nullptr;
-}
-
 /// Of the gathered models, those that show much: of several files of one model the first that loads.
 std::vector<Shown> everyScene() {
   std::vector<Shown> scenes{{"demo", testing::sceneOf(testing::readFile(GNOMON_DEMO_SCENE))}};
@@ -51,7 +46,7 @@ std::vector<Shown> everyScene() {
     const auto id = model.at("id").get<std::string>();
     const std::string name = id.substr(0, id.find('/'));
     if (name == scenes.back().name || model.at("triangles_default_scene").get<long>() < 2000) continue;
-    if (ScenePtr scene = gathered(assets, model)) scenes.push_back({name, scene});
+    if (ScenePtr scene = testing::gatheredScene(assets, model)) scenes.push_back({name, scene});
   }
   return scenes;
 }
@@ -88,10 +83,11 @@ Pair bothOf(const ScenePtr& scene, const Json& spec) {
 }
 
 /// A pixel's greatest difference over its channels, in levels of 255.
-std::vector<int> levelsBetween(const Image& a, const Image& b) {
-  const auto& left = std::get<std::vector<std::uint8_t>>(a.pixels);
-  const auto& right = std::get<std::vector<std::uint8_t>>(b.pixels);
-  const std::size_t channels = a.channels.size();
+std::vector<int> levelsBetween(const Frame& a, const Frame& b) {
+  const Image& first = a.images.at(0).image;
+  const auto& left = std::get<std::vector<std::uint8_t>>(first.pixels);
+  const auto& right = std::get<std::vector<std::uint8_t>>(b.images.at(0).image.pixels);
+  const std::size_t channels = first.channels.size();
   std::vector<int> levels(left.size() / channels);
   for (std::size_t i = 0; i < left.size(); ++i) {
     levels[i / channels] = std::max(levels[i / channels], std::abs(int(left[i]) - int(right[i])));
@@ -102,6 +98,12 @@ std::vector<int> levelsBetween(const Image& a, const Image& b) {
 double percentOver(const std::vector<int>& levels, int over) {
   const auto count = std::count_if(levels.begin(), levels.end(), [over](int level) { return level > over; });
   return 100.0 * static_cast<double>(count) / static_cast<double>(levels.size());
+}
+
+void expectSame(const Pair& pair) {
+  const std::vector<int> levels = levelsBetween(pair.cpu, pair.gl);
+  EXPECT_LE(percentOver(levels, 4), 1);
+  EXPECT_LE(percentOver(levels, 16), 0.3);
 }
 
 double median(std::vector<double> values) {
@@ -117,7 +119,7 @@ struct Differences {
     for (const Shown& shown : everyScene()) {
       for (const int camera : {0, 1}) {
         const Pair pair = bothOf(shown.scene, specOf(camera, more));
-        const std::vector<int> levels = levelsBetween(pair.cpu.images.at(0).image, pair.gl.images.at(0).image);
+        const std::vector<int> levels = levelsBetween(pair.cpu, pair.gl);
         over4.push_back(percentOver(levels, 4));
         over16.push_back(percentOver(levels, 16));
         std::printf("%-26s %d  over 4: %.4f %%, over 16: %.4f %%, most %d\n", shown.name.c_str(), camera, over4.back(),
@@ -154,13 +156,12 @@ TEST(Devices, D5_D6_VolumesAreTheSame) {
     for (const char* antialiasing : {"none", "msaa4x"}) {
       const Json more{{"volumes", volumes}, {"antialiasing", antialiasing}};
       const Pair pair = bothOf(scene, specOf(camera, more));
-      const std::vector<int> levels = levelsBetween(pair.cpu.images.at(0).image, pair.gl.images.at(0).image);
-      EXPECT_LE(percentOver(levels, 4), 1) << camera << antialiasing;
-      EXPECT_LE(percentOver(levels, 16), 0.3) << camera << antialiasing;
+      SCOPED_TRACE(std::to_string(camera) + antialiasing);
+      expectSame(pair);
       Json clear = specOf(camera, more);
       clear.erase("volumes");
       const Frame without = drawn(DeviceChoice::cpu, scene, clear);
-      EXPECT_GT(percentOver(levelsBetween(without.images.at(0).image, pair.cpu.images.at(0).image), 16), 1);
+      EXPECT_GT(percentOver(levelsBetween(without, pair.cpu), 16), 1);
     }
   }
 }
@@ -170,13 +171,9 @@ TEST(Devices, N5_PicturesOfLightMapsAreTheSame) {
     const ScenePtr scene = testing::generatedScene(name);
     for (const int camera : {0, 1}) {
       for (const char* const antialiasing : {"none", "msaa4x"}) {
+        SCOPED_TRACE(std::string(name) + ' ' + std::to_string(camera) + antialiasing);
         const Json shadow{{"technique", "lightMap"}, {"lightMap", {{"size", 512}}}};
-        const Pair pair = bothOf(scene, specOf(camera, {{"shadow", shadow}, {"antialiasing", antialiasing}}));
-        const std::vector<int> levels = levelsBetween(pair.cpu.images.at(0).image, pair.gl.images.at(0).image);
-        std::printf("%s %d %s: over 4: %.4f %%, over 16: %.4f %%\n", name, camera, antialiasing, percentOver(levels, 4),
-                    percentOver(levels, 16));
-        EXPECT_LE(percentOver(levels, 4), 1) << name << camera << antialiasing;
-        EXPECT_LE(percentOver(levels, 16), 0.3) << name << camera << antialiasing;
+        expectSame(bothOf(scene, specOf(camera, {{"shadow", shadow}, {"antialiasing", antialiasing}})));
       }
     }
   }
@@ -202,17 +199,14 @@ TEST(Devices, N5_ManyLightMapsBesideOtherTechniquesAreTheSame) {
     Json lights = Json::array();
     for (const Json& shadow : shadows) lights.push_back(sun(40 * static_cast<int>(lights.size()), shadow));
     for (const char* const antialiasing : {"none", "msaa4x"}) {
-      const Pair pair = bothOf(scene, specOf(1, {{"lights", lights}, {"antialiasing", antialiasing}}));
-      const std::vector<int> levels = levelsBetween(pair.cpu.images.at(0).image, pair.gl.images.at(0).image);
-      EXPECT_LE(percentOver(levels, 4), 1) << shadows.size() << antialiasing;
-      EXPECT_LE(percentOver(levels, 16), 0.3) << shadows.size() << antialiasing;
+      SCOPED_TRACE(std::to_string(shadows.size()) + antialiasing);
+      expectSame(bothOf(scene, specOf(1, {{"lights", lights}, {"antialiasing", antialiasing}})));
     }
     for (std::size_t light = 0; light < shadows.size(); ++light) {
       Json spec = specOf(1, {{"lights", lights}, {"views", {"shadow"}}});
       spec["debug"]["light"] = light;
       const Pair pair = bothOf(scene, spec);
-      const std::vector<int> levels = levelsBetween(pair.cpu.images.at(0).image, pair.gl.images.at(0).image);
-      EXPECT_LE(percentOver(levels, 16), 0.5) << shadows.size() << ' ' << light;
+      EXPECT_LE(percentOver(levelsBetween(pair.cpu, pair.gl), 16), 0.5) << shadows.size() << ' ' << light;
     }
   }
 }
@@ -246,10 +240,10 @@ TEST(Devices, AntialiasedEdgesAreNearlyTheSame) {
     Json smooth = spec;
     smooth["antialiasing"] = "msaa4x";
     const Pair pair = bothOf(shown.scene, smooth);
-    const std::vector<int> between = levelsBetween(pair.cpu.images.at(0).image, pair.gl.images.at(0).image);
+    const std::vector<int> between = levelsBetween(pair.cpu, pair.gl);
     // An edge is where antialiasing changes the picture.
     const Frame rough = drawn(DeviceChoice::gl, shown.scene, spec);
-    const std::vector<int> smoothed = levelsBetween(rough.images.at(0).image, pair.gl.images.at(0).image);
+    const std::vector<int> smoothed = levelsBetween(rough, pair.gl);
     double edges = 0, close = 0;
     for (std::size_t i = 0; i < between.size(); ++i) {
       if (smoothed[i] <= 4) continue;

@@ -59,28 +59,6 @@ TEST(Evaluate, ASweepMeasuresEveryFilterAgainstOneReference) {
   EXPECT_TRUE(std::any_of(report->rows.begin(), report->rows.end(), [](const auto& row) { return *row.pareto; }));
 }
 
-TEST(Evaluate, MoreTexelsAreLessWrong) {
-  const ScenePtr box = testing::generatedScene("box_on_plane");
-  const auto report = evaluated(box, evaluationOf(R"("sweep": "sizes")"));
-  ASSERT_TRUE(report);
-  const auto wrong = [&](const char* name) { return rowOf(*report, name).metrics->misclassified; };
-  EXPECT_GT(wrong("hard 1 x XSmall"), 2 * wrong("hard 1 x Large"));
-  EXPECT_GT(wrong("hard 1 x XSmall"), wrong("hard 4 x XSmall"));
-}
-
-TEST(Evaluate, StrengthAndAntialiasingOfThePictureDoNotChangeTheError) {
-  const ScenePtr box = testing::generatedScene("box_on_plane");
-  const auto report = evaluated(
-      box, evaluationOf(R"("variants": [{}, {"shadow": {"strength": 0.2}}, {"antialiasing": "none", "exposure": 2},
-                                        {"views": ["normal"], "output": {"format": "exr"}}])"));
-  ASSERT_TRUE(report);
-  EXPECT_EQ(report->reference.frames, 1);
-  for (const EvaluationRow& row : report->rows) {
-    EXPECT_EQ(row.metrics->misclassified, report->rows[0].metrics->misclassified) << row.name;
-    EXPECT_EQ(row.metrics->receivers, report->rows[0].metrics->receivers) << row.name;
-  }
-}
-
 TEST(Evaluate, EveryShadowedLightCounts) {
   const ScenePtr box = testing::generatedScene("box_on_plane");
   const std::string lamp = R"({"type": "point", "position": [3, 4, 2], "intensity": 20})";
@@ -129,19 +107,6 @@ TEST(Evaluate, ASpecThatTheSceneCanNotMeetIsTheRequestsProblem) {
   EXPECT_EQ(report.problems()[0].pointer, "/spec/camera/node");
 }
 
-TEST(Evaluate, StopsWhenItIsAskedTo) {
-  int steps = 0;
-  EvaluationListener listener;
-  listener.step = [&](const EvaluationStep& step) {
-    ++steps;
-    return step.done < 4;
-  };
-  const auto report = evaluated(testing::generatedScene("box_on_plane"), evaluationOf(R"("sweep": "sizes")"), listener);
-  ASSERT_FALSE(report);
-  EXPECT_EQ(report.problems()[0].code, ProblemCode::unavailable);
-  EXPECT_GT(steps, 4);
-}
-
 TEST(Evaluate, H6_ShimmerIsMeasuredAlongAPathOfSmallSteps) {
   const ScenePtr row = testing::generatedScene("long_row");
   const auto report = evaluated(row, evaluationOf(R"("path": {"step": [0.013, 0, 0.007], "frames": 8}, "variants": [
@@ -151,14 +116,6 @@ TEST(Evaluate, H6_ShimmerIsMeasuredAlongAPathOfSmallSteps) {
   ASSERT_TRUE(report->rows[0].metrics && report->rows[1].metrics);
   EXPECT_GT(report->rows[0].metrics->shimmer.value(), 0);
   EXPECT_EQ(report->rows[1].metrics->shimmer.value(), 0);
-}
-
-TEST(Evaluate, NothingInViewIsNoErrorAndNoProblem) {
-  const auto report =
-      evaluated(testing::generatedScene("empty"), evaluationOf(R"("variants": [{}])", R"({"width": 64})"));
-  ASSERT_TRUE(report) << report.problems()[0].detail;
-  EXPECT_EQ(report->rows[0].metrics->receivers, 0u);
-  EXPECT_EQ(report->rows[0].metrics->misclassified, 0);
 }
 
 TEST(Evaluate, H13_TilesThatAreKeptDoNotMakeLaterRoundsCheaper) {

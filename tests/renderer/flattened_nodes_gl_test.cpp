@@ -3,6 +3,7 @@
 
 #include "tests/renderer/frame_fixture.h"
 #include "tests/renderer/scene/animation/animated.h"
+#include "tests/renderer/smooth_mesh.h"
 
 namespace gnomon {
 namespace {
@@ -112,26 +113,9 @@ TEST(FlattenedNodes, AreSeenAndCastWhileAnAnimationPassesZero) {
   EXPECT_NEAR(seen.shadowed, 512, 34);
 }
 
-TEST(FlattenedNodes, OfWhichALineIsLeftAreNothing) {
-  const ScenePtr scene = sceneOf(boxOverGround({{"scale", {1, 0, 0}}, {"translation", {0, 1, 0}}}));
-  const Seen seen = seenIn(renderJson(scene, specOf({{"technique", "rayTraced"}}).dump()));
-  EXPECT_EQ(seen.surface, 0);
-  EXPECT_EQ(seen.shadowed, 0);
-}
-
 TEST(FlattenedNodes, SmoothNormalsPointAlongTheAxisThatIsGone) {
   testing::GlbBuilder builder = boxOverGround({{"scale", {1, 0, 1}}, {"translation", {0, 1, 0}}});
-  std::vector<testing::Point> corners;
-  for (const float x : {-1.0f, 1.0f}) {
-    for (const float y : {-1.0f, 1.0f}) {
-      for (const float z : {-1.0f, 1.0f}) corners.push_back({x, y, z});
-    }
-  }
-  const int mesh = builder.addMesh(
-      {{"attributes", {{"POSITION", builder.addPoints(corners)}, {"NORMAL", builder.addPoints(corners)}}},
-       {"indices", builder.addShortIndices({0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
-                                            2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3})}});
-  builder.json["nodes"][0]["mesh"] = mesh;
+  builder.json["nodes"][0]["mesh"] = testing::addCube(builder, true);
   const Seen seen = seenIn(renderJson(sceneOf(builder), specOf({{"technique", "rayTraced"}}).dump()));
   EXPECT_EQ(seen.surface, 1024);
   EXPECT_GT(seen.leastUp, 0.999);

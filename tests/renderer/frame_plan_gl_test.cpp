@@ -67,6 +67,8 @@ TEST(FramePlans, RefuseWhatTheFrameRefuses) {
       {R"({"animation":{"index":3}})", {"/animation/index"}},
       {R"({"views":["motion"],"motionFrom":{"animation":{"index":3}}})", {"/motionFrom/animation/index"}},
       {R"({"views":["motion"],"motionFrom":{"camera":{"node":"nobody"}}})", {"/motionFrom/camera/node"}},
+      {R"({"views":["motion"],"motionFrom":{"nodes":[{"node":"nobody","scale":[1,2,1]}]}})",
+       {"/motionFrom/nodes/0/node"}},
       {R"({"shadow":{"technique":"lightMap"},"animation":{"index":0,"timeSeconds":1}})", {"/shadow/technique"}},
       {R"({"debug":{"light":9}})", {"/debug/light"}},
       {R"({"views":["tile"],"shadow":{"cascadeCount":1},"debug":{"tile":3}})", {"/debug/tile"}},
@@ -108,19 +110,6 @@ TEST(FramePlans, X8_AnAtlasBeyondTheDeviceIsRefusedAndOneThatIsFullSaysSo) {
   EXPECT_LE(plan->atlasSize[0], 512);
   EXPECT_LT(plan->lights[0].grantedTileSize, plan->lights[0].askedTileSize);
   EXPECT_NE(plan->lights[0].note.find("is full"), std::string::npos) << plan->lights[0].note;
-}
-
-TEST(FramePlans, D4_TheDeviceMustHaveTheSamples) {
-  FrameSpec spec;
-  spec.width = 512;
-  spec.height = 288;
-  spec.atlas.samples = 4;
-  RendererInfo device;
-  device.maxTextureSize = 512;
-  device.maxSamples = 1;
-  const auto plan = planFrame(testing::generatedScene("box_on_plane"), spec, device);
-  ASSERT_FALSE(plan);
-  EXPECT_EQ(plan.problems()[0].pointer, "/atlas/samples");
 }
 
 } // namespace

@@ -174,24 +174,6 @@ TEST(FrameReports, MemoryHoldsWhatViewsOfTilesAreMadeFrom) {
   EXPECT_EQ(memoryWith(atlas + "4}", &texels).targets, plain + texels * 4) << "one depth of several";
 }
 
-TEST(FrameReports, H2_HalfTheTileShowsTexelsTwiceAsLarge) {
-  const ScenePtr scene = testing::generatedScene("box_on_plane");
-  Json spec = Json::parse(kThreeLights);
-  spec["width"] = spec["height"] = 512; // tiles of 512 and 1024 texels, of which borders take little
-  for (Json& light : spec["lights"]) light["shadow"] = {{"size", "XLarge"}};
-  const Frame fine = renderJson(scene, spec.dump());
-  for (Json& light : spec["lights"]) light["shadow"] = {{"size", "Large"}};
-  const Frame coarse = renderJson(scene, spec.dump());
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto& small = fine.report.lights[i].predictedError;
-    const auto& large = coarse.report.lights[i].predictedError;
-    ASSERT_TRUE(small && large);
-    EXPECT_NEAR(large->median / small->median, 2, 0.15) << i;
-    EXPECT_NEAR(large->max / small->max, 2, 0.15) << i;
-    EXPECT_LE(small->max, fine.report.predictedError->max);
-  }
-}
-
 TEST(FrameReports, X20_X24_ASequenceKeepsItsRangeAndItsTexels) {
   const ScenePtr scene = testing::generatedScene("long_row");
   Json spec = Json::parse(R"({"width":96,"height":64,"camera":{"eye":[0,3,6],"target":[0,1,-30]},

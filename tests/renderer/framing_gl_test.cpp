@@ -47,26 +47,6 @@ void expectFramed(const Margins& margins, const char* what) {
   EXPECT_NEAR(std::min(margins.left, margins.top), kSide / 40.0, 1.5) << what;
 }
 
-/// A ball of so many segments, at the root.
-GlbBuilder ball(int segments) {
-  GlbBuilder builder;
-  std::vector<testing::Point> points;
-  std::vector<std::uint32_t> indices;
-  for (int i = 0; i <= segments; ++i) {
-    for (int j = 0; j <= 2 * segments; ++j) {
-      const double a = M_PI * i / segments, b = M_PI * j / segments;
-      points.push_back({static_cast<float>(std::sin(a) * std::cos(b)), static_cast<float>(std::cos(a)),
-                        static_cast<float>(std::sin(a) * std::sin(b))});
-      if (i == segments || j == 2 * segments) continue;
-      const auto at = static_cast<std::uint32_t>(i * (2 * segments + 1) + j), below = at + 2 * segments + 1;
-      indices.insert(indices.end(), {at, at + 1, below, below, at + 1, below + 1});
-    }
-  }
-  builder.addMeshNode(builder.addMesh(
-      {{"attributes", {{"POSITION", builder.addPoints(points)}}}, {"indices", builder.addIndices(indices)}}));
-  return builder;
-}
-
 TEST(Framing, ABoxLiesInTheMiddleFromEveryDirection) {
   const ScenePtr scene = sceneOf(testing::cube());
   expectFramed(marginsOf(scene, Json::object()), "the default");
@@ -75,11 +55,6 @@ TEST(Framing, ABoxLiesInTheMiddleFromEveryDirection) {
     expectFramed(marginsOf(scene, {{"camera", {{"orbit", orbit}}}}), "an orbit");
   }
   expectFramed(marginsOf(scene, {{"camera", {{"perspective", {{"fovYDegrees", 100}}}}}}), "a wide lens");
-}
-
-TEST(Framing, ABallFillsThePicture) {
-  const Margins margins = marginsOf(sceneOf(ball(24)), Json::object());
-  for (const int margin : {margins.left, margins.right, margins.top, margins.bottom}) EXPECT_NEAR(margin, 6, 2);
 }
 
 TEST(Framing, WhatIsHiddenDoesNotCount) {

@@ -42,31 +42,20 @@ testing::GlbBuilder plates() {
 /// A point 3 m left of, or right of, the middle, and one between the plates.
 constexpr double kLeft = 0.2, kRight = 0.8, kBetween = 0.5;
 
-TEST(GeometryViews, IdsAreIndicesOfNodes) {
-  const Frame frame = renderJson(testing::sceneOf(plates()), fromAbove({"ids"}).dump());
+TEST(GeometryViews, IdsMaterialsAndAlbedoAreThoseOfTheFileWhateverTheLight) {
+  Json spec = fromAbove({"ids", "materials", "albedo"});
+  spec["lights"] = Json::array();
+  const Frame frame = renderJson(testing::sceneOf(plates()), spec.dump());
   EXPECT_EQ(valueAt(frame, kLeft, 0.5), 0.0f);
   EXPECT_EQ(valueAt(frame, kRight, 0.5), 2052.0f);
   EXPECT_EQ(valueAt(frame, kBetween, 0.5), -1.0f);
   EXPECT_EQ(frame.images[0].image.channels, std::vector<std::string>{"id"});
-}
-
-TEST(GeometryViews, MaterialsAreThoseOfTheFile) {
-  const Frame frame = renderJson(testing::sceneOf(plates()), fromAbove({"materials"}).dump());
-  EXPECT_EQ(valueAt(frame, kLeft, 0.5), -1.0f) << "the mesh names none";
-  EXPECT_EQ(valueAt(frame, kRight, 0.5), 0.0f);
-  EXPECT_EQ(valueAt(frame, kBetween, 0.5), -1.0f);
-}
-
-TEST(GeometryViews, AlbedoIsTheBaseColorWhateverTheLight) {
-  Json spec = fromAbove({"albedo"});
-  spec["lights"] = Json::array();
-  const Frame frame = renderJson(testing::sceneOf(plates()), spec.dump());
-  const auto& pixels = floatsOf(frame);
-  const std::size_t right = (std::size_t{kSide} * 50 + 80) * 3;
-  EXPECT_NEAR(pixels[right], 0.25, 1e-3);
-  EXPECT_NEAR(pixels[right + 1], 0.5, 1e-3);
-  EXPECT_NEAR(pixels[right + 2], 0.75, 2e-3);
-  EXPECT_EQ(pixels[(std::size_t{kSide} * 50 + 50) * 3], 0.0f) << "nothing is black";
+  EXPECT_EQ(valueAt(frame, kLeft, 0.5, 1), -1.0f) << "the mesh names none";
+  EXPECT_EQ(valueAt(frame, kRight, 0.5, 1), 0.0f);
+  EXPECT_EQ(valueAt(frame, kBetween, 0.5, 1), -1.0f);
+  const float* albedo = floatsOf(frame, 2).data() + (std::size_t{kSide} * 50 + 80) * 3;
+  for (const int channel : {0, 1, 2}) EXPECT_NEAR(albedo[channel], 0.25 * (channel + 1), 2e-3);
+  EXPECT_EQ(valueAt(frame, kBetween, 0.5, 2), 0.0f) << "nothing is black";
 }
 
 TEST(GeometryViews, PositionsAreTheWorldsPoints) {

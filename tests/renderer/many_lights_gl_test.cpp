@@ -83,20 +83,5 @@ TEST(ManyLights, AnAtlasBeyondAFramesMemoryIsRefused) {
   EXPECT_EQ(problems[0].limit, "536870912 bytes");
 }
 
-TEST(ManyLights, MoreThanRaysMaySayOfAFrameIsRefused) {
-  Json suns = Json::array();
-  for (int i = 0; i < 24; ++i) suns.push_back({{"type", "directional"}, {"sun", {{"azimuthDegrees", 15 * i}}}});
-  Json spec = frameSpec(suns);
-  spec["width"] = spec["height"] = 2048;
-  spec["antialiasing"] = "msaa4x";
-  spec["shadow"] = {{"technique", "rayTraced"}};
-  const Problems problems = testing::refusedJson(testing::generatedScene("box_on_plane"), spec.dump());
-  ASSERT_EQ(problems.size(), 1u);
-  EXPECT_EQ(problems[0].code, ProblemCode::tooLarge);
-  EXPECT_EQ(problems[0].pointer, "/lights");
-  EXPECT_EQ(problems[0].limit, "536870912 bytes");
-  EXPECT_EQ(problems[0].actual, "805306368 bytes") << "24 lights, 4 samples a pixel, 2 bytes each";
-}
-
 } // namespace
 } // namespace gnomon

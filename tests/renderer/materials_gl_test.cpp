@@ -41,12 +41,6 @@ float redOf(const ScenePtr& scene, const Json& spec) {
   return testing::valueAt(frame, 0.5, 0.5);
 }
 
-TEST(MaterialFrames, WhatIsUnlitShowsItsColorWhateverTheLight) {
-  const ScenePtr scene = testing::sceneOf(ground(Json::parse(
-      R"({"pbrMetallicRoughness":{"baseColorFactor":[0.25,0.5,1,1]},"extensions":{"KHR_materials_unlit":{}}})")));
-  for (const Json& lights : {Json::array(), kSun}) EXPECT_NEAR(redOf(scene, fromAbove(lights)), 0.25f, 1e-3f);
-}
-
 /// As bytes, at default settings but for these.
 std::array<int, 3> shownBytes(const ScenePtr& scene, Json settings) {
   settings["width"] = settings["height"] = 16;
@@ -77,12 +71,6 @@ TEST(MaterialFrames, AWhiteFloorShowsTheAmbientRadiance) {
   Json spec = fromAbove(Json::array());
   spec["ambient"] = {{"intensity", 0.5}};
   EXPECT_NEAR(redOf(scene, spec), 0.5f, 0.03f);
-}
-
-TEST(MaterialFrames, AMetalIsNotBlackWithoutLights) {
-  const ScenePtr scene =
-      testing::sceneOf(ground(Json::parse(R"({"pbrMetallicRoughness":{"metallicFactor":1,"roughnessFactor":0.1}})")));
-  EXPECT_GT(redOf(scene, fromAbove(Json::array())), 0.2f);
 }
 
 TEST(MaterialFrames, SpecularGlossinessMatchesTheSameMetalAndDielectric) {

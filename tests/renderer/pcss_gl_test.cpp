@@ -147,12 +147,6 @@ TEST(Pcss, N6_WithoutASizeItIsTheSharpShadowAndTheReportSaysSo) {
   EXPECT_EQ(renderJson(scene, spec.dump()).report.lights.at(0).note, "");
 }
 
-TEST(Pcss, N6_ARadiusOfItsOwnIsAProblem) {
-  const auto spec = decodeFrameSpec(R"({"shadow": {"filter": {"type": "pcss", "radius": 0.1}}})");
-  ASSERT_FALSE(spec);
-  EXPECT_EQ(spec.problems()[0].pointer, "/shadow/filter/radius");
-}
-
 /// The root mean square of the shadow less a reference by rays, over what receives light.
 double rmsOf(const Frame& frame) {
   const auto& shadow = floatsOf(frame, 0);

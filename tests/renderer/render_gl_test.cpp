@@ -39,27 +39,6 @@ TEST(Render, TheEffectiveSpecAsksForTheSamePictureAgain) {
   }
 }
 
-TEST(Render, ViewsComeOutTheSameInAnyOrder) {
-  const ScenePtr scene = testing::generatedScene("long_row");
-  const auto views = [&](const std::string& list) {
-    return renderJson(scene, R"({"width":96,"height":64,"camera":{"node":"camera"},"views":)" + list + "}");
-  };
-  const Frame forth = views(R"(["color","depth","normal","cascades","shadow","atlas"])");
-  const Frame back = views(R"(["atlas","shadow","cascades","normal","depth","color"])");
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(pngOf(forth, i), pngOf(back, 5 - i)) << i;
-}
-
-TEST(Render, DepthIsMetresAlongTheViewAxis) {
-  testing::GlbBuilder plane = testing::plane();
-  plane.json["nodes"][0]["scale"] = {100, 1, 100};
-  const Frame frame = renderJson(testing::sceneOf(plane),
-                                 R"({"width":32,"height":32,"camera":{"eye":[0,7,0],"target":[0,0,0],"up":[0,0,-1]},
-      "views":["depth","normal"],"output":{"format":"exr","exrPixelType":"float"}})");
-  EXPECT_NEAR(valueAt(frame, 0.5, 0.5), 7.0f, 1e-5f);
-  EXPECT_NEAR(valueAt(frame, 0.05, 0.05), 7.0f, 1e-5f) << "not the distance to the eye";
-  EXPECT_NEAR(floatsOf(frame, 1)[1], 1.0f, 1e-6f) << "the normal points up";
-}
-
 TEST(Render, WhereNothingIsDepthIsInfinite) {
   const Frame frame = renderJson(testing::generatedScene("empty"),
                                  R"({"width":8,"height":8,"views":["depth","color"],"output":{"format":"exr"},
@@ -67,15 +46,6 @@ TEST(Render, WhereNothingIsDepthIsInfinite) {
   EXPECT_TRUE(std::isinf(valueAt(frame, 0.5, 0.5)));
   const auto& color = floatsOf(frame, 1);
   EXPECT_EQ((std::vector<float>{color[0], color[1], color[2], color[3]}), (std::vector<float>{0.25f, 0.5f, 1, 0.5f}));
-}
-
-TEST(Render, BackgroundIsWrittenInSrgb) {
-  const Frame frame =
-      renderJson(testing::generatedScene("empty"), R"({"width":8,"height":8,"background":{"color":[0,0.2140411,1]}})");
-  const auto& pixels = std::get<std::vector<std::uint8_t>>(frame.images[0].image.pixels);
-  EXPECT_EQ(pixels[0], 0);
-  EXPECT_NEAR(pixels[1], 127.5, 1);
-  EXPECT_EQ(pixels[2], 255);
 }
 
 TEST(Render, LambertReflectsTheShareOfTheLightThatItShould) {
@@ -146,35 +116,6 @@ TEST(Render, TheEdgeOfWhatGlowsIsAntialiased) {
   EXPECT_NEAR(color.front(), 0, 0.01);
   EXPECT_NEAR(color.back(), 1, 0.01);
   EXPECT_GE(between, 32) << "about one pixel a row";
-}
-
-TEST(Render, ACameraThatIsNotThereIsNamed) {
-  const Problems problems =
-      testing::refusedJson(testing::generatedScene("box_on_plane"), R"({"camera":{"node":"no such"}})");
-  ASSERT_EQ(problems.size(), 1u);
-  EXPECT_EQ(problems[0].pointer, "/camera/node");
-  EXPECT_NE(problems[0].limit.find("camera"), std::string::npos);
-}
-
-TEST(Render, ASceneThatIsNotThereIsNamed) {
-  const Problems problems = testing::refusedJson(testing::generatedScene("multi_scene"), R"({"scene":2})");
-  ASSERT_EQ(problems.size(), 1u);
-  EXPECT_EQ(problems[0].pointer, "/scene");
-  EXPECT_EQ(problems[0].limit, "0..1");
-}
-
-TEST(Render, AnAtlasThatNobodyNeedsCannotBeShown) {
-  const Problems problems = testing::refusedJson(testing::generatedScene("box_on_plane"),
-                                                 R"({"views":["atlas"],"shadow":{"enabled":false}})");
-  ASSERT_EQ(problems.size(), 1u);
-  EXPECT_EQ(problems[0].pointer, "/views");
-}
-
-TEST(Render, OddAndTinyFramesWork) {
-  const ScenePtr scene = testing::generatedScene("box_on_plane");
-  for (const char* size : {R"({"width":1,"height":1})", R"({"width":1,"height":257})", R"({"width":513,"height":3})"}) {
-    EXPECT_FALSE(renderJson(scene, size).images.empty());
-  }
 }
 
 TEST(Render, EveryStageIsTimed) {

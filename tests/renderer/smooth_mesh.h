@@ -5,7 +5,7 @@
 
 #include "tests/support/glb_builder.h"
 
-/// Meshes whose vertices have the normals of the curved surface that they lie on.
+/// Small meshes, most of whose vertices have the normals of the curved surface that they lie on.
 namespace gnomon::testing {
 
 /// A mesh of columns x rows quads of two triangles over the unit square; `place(u, v)` and `normal(u, v)` give points
@@ -38,6 +38,19 @@ inline int addSmoothBall(GlbBuilder& builder, int columns = 16, int rows = 8) {
                  float(-std::sin(polar) * std::sin(around))};
   };
   return addSmoothGrid(builder, columns, rows, onBall, onBall);
+}
+
+/// A cube from -1 to 1 of eight vertices; `smooth`: with normals away from its middle, else without any. Its mesh.
+inline int addCube(GlbBuilder& builder, bool smooth = false) {
+  std::vector<Point> corners;
+  for (int i = 0; i < 8; ++i) {
+    corners.push_back({i & 4 ? 1.0f : -1.0f, i & 2 ? 1.0f : -1.0f, i & 1 ? 1.0f : -1.0f});
+  }
+  nlohmann::json attributes{{"POSITION", builder.addPoints(corners)}};
+  if (smooth) attributes["NORMAL"] = builder.addPoints(corners);
+  return builder.addMesh({{"attributes", attributes},
+                          {"indices", builder.addShortIndices({0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1, 2,
+                                                               3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3})}});
 }
 
 /// A rectangle without normals at the root of the scene.

@@ -80,18 +80,6 @@ TEST(TileCache, H13_BytesAreTheSameWithAndWithout) {
   }
 }
 
-TEST(TileCache, H13_ARepeatedRequestDrawsNoCaster) {
-  const ScenePtr box = testing::generatedScene("box_on_plane");
-  const auto frames = drawn({{box, requestFrom(0, "none", "pcf")}, {box, requestFrom(0, "none", "pcf")}}, 1 << 28);
-  ASSERT_EQ(frames.size(), 2u);
-  EXPECT_GT(frames[0].report.counts.casterTriangles, 0u);
-  EXPECT_EQ(frames[1].report.counts.casterTriangles, 0u);
-  if (testing::testedDevice() == DeviceChoice::gl) {
-    EXPECT_LT(frames[1].report.counts.drawCalls, frames[0].report.counts.drawCalls);
-  }
-  EXPECT_EQ(tilesWhere(frames[1], false), 0);
-}
-
 TEST(TileCache, H13_X24_AnotherCameraRedrawsOnlyTheTilesWhoseMatrixChanged) {
   const ScenePtr box = testing::generatedScene("box_on_plane");
   const auto frames =

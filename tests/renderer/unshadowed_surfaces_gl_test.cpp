@@ -109,17 +109,5 @@ TEST(UnshadowedSurfaces, WhereNothingInViewReceivesNothingIsDrawn) {
   EXPECT_EQ(frame.report.lights[0].note, "nothing in view receives its shadow");
 }
 
-TEST(UnshadowedSurfaces, UnlitOnesShowNoShadow) {
-  testing::GlbBuilder builder = BoxOverGround{}.builder();
-  builder.json["extensionsUsed"] = {"KHR_materials_unlit"};
-  builder.json["meshes"][0]["primitives"][0]["material"] =
-      builder.add("materials", {{"extensions", {{"KHR_materials_unlit", Json::object()}}}});
-  for (const char* technique : {"shadowMap", "rayTraced"}) {
-    const Json spec = {{"lights", {sun()}}, {"shadow", {{"technique", technique}}}};
-    const Frame frame = testing::shadowFrame(testing::sceneOf(builder), Sight{}, spec);
-    EXPECT_EQ(testing::countsOf(testing::shownOf(frame)).shadowed, 0) << technique;
-  }
-}
-
 } // namespace
 } // namespace gnomon

@@ -87,41 +87,6 @@ TEST(VolumeFrames, D5_D6_D7_ASlabsShadowIsOneLessExpOfSigmaL) {
   }
 }
 
-TEST(VolumeFrames, D7_WhatIsSeenThroughItIsDimmedAsFarAsItReaches) {
-  const ScenePtr scene = groundScene();
-  const std::vector<Json> volumes{slab({{"castShadow", false}})};
-  struct Case {
-    const char* name;
-    Json camera;
-    double metres;
-  };
-  const Json up{0, 0, -1};
-  const Json lens{{"height", 80}};
-  const Json wide{{"fovYDegrees", 40}};
-  const std::vector<Case> cases{
-      {"above", {{"eye", {0, 10, 0}}, {"orthographic", lens}}, 2},
-      {"inside", {{"eye", {0, 5.5, 0}}, {"orthographic", {{"height", 8}}}}, 1.5},
-      {"cut by the near plane", {{"eye", {0, 10, 0}}, {"orthographic", {{"height", 80}, {"near", 5}}}}, 1},
-      {"behind the eye", {{"eye", {0, 5, 0}}, {"orthographic", {{"height", 80}, {"near", -20}}}}, 2},
-      {"below", {{"eye", {0, 3, 0}}, {"orthographic", lens}}, 0},
-      {"perspective above", {{"eye", {0, 10, 0}}, {"perspective", wide}}, 2},
-      {"perspective inside", {{"eye", {0, 4.5, 0}}, {"perspective", wide}}, 0.5},
-      {"perspective cut", {{"eye", {0, 10, 0}}, {"perspective", {{"fovYDegrees", 40}, {"near", 5}}}}, 1}};
-  for (const Case& each : cases) {
-    Json camera{{"camera", each.camera}};
-    camera["camera"].update({{"target", {0, 0, 0}}, {"up", up}});
-    Json base = specOf(volumes);
-    base.erase("camera");
-    base["camera"] = camera["camera"];
-    const Frame with = renderJson(scene, base.dump());
-    base.erase("volumes");
-    const Frame without = renderJson(scene, base.dump());
-    const double let = redAt(with, 0.5, 0.5) / redAt(without, 0.5, 0.5);
-    EXPECT_NEAR(let, std::exp(-kSigma * each.metres), 0.005) << each.name;
-    EXPECT_EQ(floatsOf(with, 1), floatsOf(without, 1)) << "it casts no shadow";
-  }
-}
-
 TEST(VolumeFrames, D7_SeveralThatOverlapAddUp) {
   const ScenePtr scene = groundScene();
   const Json other = slab({{"box", {{"min", {0, 3, -20}}, {"max", {30, 5, 20}}}}});
@@ -132,14 +97,6 @@ TEST(VolumeFrames, D7_SeveralThatOverlapAddUp) {
   const Frame without = rendered(scene, {});
   EXPECT_NEAR(redAt(frame, 0.6, 0.5) / redAt(without, 0.6, 0.5), std::exp(-kSigma * 4), 0.2);
   EXPECT_LT(redAt(frame, 0.6, 0.5), redAt(frame, 0.4, 0.5));
-}
-
-TEST(VolumeFrames, D6_D7_OnlyWhatIsBehindItIsShaded) {
-  const ScenePtr scene = groundScene();
-  const Json below{{"box", {{"min", {-20, -4, -20}}, {"max", {20, -2, 20}}}}};
-  EXPECT_NEAR(valueAt(rendered(scene, {slab(below)}), 0.5, 0.5, 1), 1, 1e-6) << "the lit side";
-  const Json around{{"box", {{"min", {-20, -1, -20}}, {"max", {20, 1, 20}}}}};
-  EXPECT_NEAR(valueAt(rendered(scene, {slab(around)}), 0.5, 0.5, 1), std::exp(-kSigma), 0.003) << "inside it";
 }
 
 TEST(VolumeFrames, D6_ItTakesItsShareOfWhatSurfacesLetThrough) {

@@ -7,9 +7,7 @@ namespace gnomon {
 namespace {
 
 using testing::floatsOf;
-using testing::refusedJson;
 using testing::renderJson;
-using testing::valueAt;
 
 constexpr int kCarrier = 2;
 
@@ -125,15 +123,6 @@ TEST(VolumeNodes, D5_LightIsMadeAnewWhereItsNodeHasMoved) {
   EXPECT_FALSE(reused(0.25));
   EXPECT_TRUE(reused(0.25));
   EXPECT_FALSE(reused(0.75));
-}
-
-TEST(VolumeNodes, ANodeThatIsNotThereIsRefusedAtItsField) {
-  const ScenePtr scene = convoy();
-  for (const Json& node : {Json("wagon"), Json(4)}) {
-    const Problems problems = refusedJson(scene, specOf({cloud({{"node", node}, {"box", kBox}})}).dump());
-    ASSERT_EQ(problems.size(), 1u) << node;
-    EXPECT_EQ(problems[0].pointer, "/volumes/0/node");
-  }
 }
 
 } // namespace

@@ -168,12 +168,12 @@ std::string tileDifference(const FrameReport& cpu, const FrameReport& gl) {
 
 } // namespace
 
-std::string differenceOf(const Frame& cpu, const Frame& gl) {
-  if (cpu.images.size() != gl.images.size()) return "the number of pictures";
-  if (std::string plan = planDifference(cpu.report, gl.report); !plan.empty()) return plan;
-  const bool planned = samePlan(cpu.report, gl.report);
-  if (planned) {
-    if (std::string tiles = tileDifference(cpu.report, gl.report); !tiles.empty()) return tiles;
+FrameDifference differenceOf(const Frame& cpu, const Frame& gl) {
+  if (cpu.images.size() != gl.images.size()) return {"the number of pictures"};
+  if (std::string plan = planDifference(cpu.report, gl.report); !plan.empty()) return {plan};
+  const bool otherPlans = !samePlan(cpu.report, gl.report);
+  if (!otherPlans) {
+    if (std::string tiles = tileDifference(cpu.report, gl.report); !tiles.empty()) return {tiles};
   }
   bool mapped = false;
   for (std::size_t i = 0; i < gl.report.lights.size(); ++i) mapped = mapped || onlyMapped(gl.report.spec, i);
@@ -181,11 +181,11 @@ std::string differenceOf(const Frame& cpu, const Frame& gl) {
   for (std::size_t i = 0; i < gl.images.size(); ++i) {
     const ViewTraits& traits = traitsOf(gl.images[i].view);
     const bool showsMaps = traits.tiles || traits.source == ViewSource::atlas || (traits.shadowed && mapped);
-    if (!planned && showsMaps) continue;
+    if (otherPlans && showsMaps) continue;
     const std::string difference = pictureDifference(cpu.images[i], gl.images[i], antialiased);
-    if (!difference.empty()) return difference;
+    if (!difference.empty()) return {difference, otherPlans};
   }
-  return "";
+  return {{}, otherPlans};
 }
 
 } // namespace gnomon::testing

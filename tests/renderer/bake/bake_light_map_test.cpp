@@ -1,7 +1,6 @@
 #include "renderer/bake/bake_light_map.h"
 
 #include <gtest/gtest.h>
-#include <random>
 
 #include "renderer/core/parallel.h"
 #include "tests/renderer/reference/shapes.h"
@@ -25,58 +24,6 @@ Traced scene(const Light& light) {
 
 LightMapLayout layoutOf(const Traced& traced, double texelsPerMetre) {
   return *lightMapLayout(traced.scene.scene(), traced.scene.view(), {texelsPerMetre, {}});
-}
-
-/// The root of the mean square of what the map says less what rays say, at places all over the surfaces.
-double rmsOf(const Traced& traced, const LightMapLayout& layout, const LightMap& map, int samples) {
-  const TracedLight light(traced.input(), 0);
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> unit(0, 1);
-  double sum = 0;
-  int count = 0;
-  for (const PlacedChart& chart : layout.charts) {
-    for (const std::uint32_t triangle : chart.triangles) {
-      const FlatTriangle flat = layout.flat({chart.instance, triangle});
-      const int places = 1 + static_cast<int>(std::abs(signedArea(flat)) / 16);
-      for (int i = 0; i < places; ++i) {
-        glm::dvec2 weights(unit(random), unit(random));
-        if (weights.x + weights.y > 1) weights = 1.0 - weights;
-        const SurfacePoint point = light.pointFacing({chart.instance, triangle}, weights);
-        float truth = 0;
-        light.visibility({&point, 1}, samples, {&truth, 1});
-        const glm::dvec2 place = flat[0] + weights.x * (flat[1] - flat[0]) + weights.y * (flat[2] - flat[0]);
-        const double off = double{shareAt(map, glm::vec2(place))} - double{truth};
-        sum += off * off;
-        ++count;
-      }
-    }
-  }
-  EXPECT_GT(count, 500);
-  return std::sqrt(sum / count);
-}
-
-TEST(BakeLightMap, N5_SaysWhatRaysSayTheBetterTheFiner) {
-  const Traced traced = scene(testing::sunAlong({0.4, -1, 0.2}));
-  double before = 1;
-  for (const double fineness : {4.0, 16.0, 64.0}) {
-    const LightMapLayout layout = layoutOf(traced, fineness);
-    const auto map = bakeLightMap(traced.input(), 0, layout, 1, {});
-    ASSERT_TRUE(map.has_value());
-    const double rms = rmsOf(traced, layout, *map, 1);
-    EXPECT_LT(rms, 0.8 * before) << fineness;
-    before = rms;
-  }
-  EXPECT_LT(before, 0.06);
-}
-
-TEST(BakeLightMap, N5_SoftShadowsAreWithinWhatTheirRaysSay) {
-  for (const Light& light : {testing::sunAlong({0.4, -1, 0.2}, 5), testing::pointAt({-1, 4, 1}, 0.2)}) {
-    const Traced traced = scene(light);
-    const LightMapLayout layout = layoutOf(traced, 32);
-    const auto map = bakeLightMap(traced.input(), 0, layout, 256, {});
-    ASSERT_TRUE(map.has_value());
-    EXPECT_LT(rmsOf(traced, layout, *map, 1024), 0.02);
-  }
 }
 
 TEST(BakeLightMap, WhatNothingHidesIsLitAndWhatASquareHidesIsDark) {

@@ -101,30 +101,6 @@ TEST(FlatTriangles, OverlapWhereAPointLiesInBoth) {
   }));
 }
 
-TEST(FlatTriangles, AnyOverlapIsThatOfEveryPair) {
-  EXPECT_TRUE(rc::check([] {
-    std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
-    std::vector<FlatTriangle> triangles;
-    const int count = *rc::gen::inRange(0, 40);
-    for (int i = 0; i < count; ++i) triangles.push_back(anyTriangle(random, *rc::gen::element(0.5, 0.1, 0.02)));
-    RC_ASSERT(anyOverlap(triangles, kSlack) == anyPairOverlaps(triangles, kSlack));
-  }));
-}
-
-TEST(FlatTriangles, AGridOfNeighboursDoesNotOverlap) {
-  std::vector<FlatTriangle> triangles;
-  for (int y = 0; y < 200; ++y) {
-    for (int x = 0; x < 200; ++x) {
-      const glm::dvec2 p(x * 0.1, y * 0.1), right(0.1, 0), up(0, 0.1);
-      triangles.push_back({p, p + right, p + up});
-      triangles.push_back({p + right, p + right + up, p + up});
-    }
-  }
-  EXPECT_FALSE(anyOverlap(triangles, kSlack));
-  triangles.push_back({{{5.01, 5.02}, {5.03, 5.02}, {5.02, 5.03}}});
-  EXPECT_TRUE(anyOverlap(triangles, kSlack));
-}
-
 // On a coarse raster sides and corners often touch, and needles narrower than the slack lie along each other. What
 // overlaps one before is mostly left out, so that both answers are frequent.
 TEST(FlatTriangles, AnyOverlapIsThatOfEveryPairWhereManyTouch) {

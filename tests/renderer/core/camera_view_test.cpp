@@ -121,39 +121,6 @@ TEST(Frustum, APointIsInsideWhereThePictureShowsIt) {
   }));
 }
 
-TEST(CameraView, DepthFallsAsTheSurfaceRecedes) {
-  EXPECT_TRUE(rc::check([](const RandomView& random, const RandomUnit& d) {
-    const CameraView& view = random.view;
-    const double depth = view.near + d.value * 100.0;
-    RC_ASSERT(projected(view, pointAt(view, {0, 0}, depth)).z >
-              projected(view, pointAt(view, {0, 0}, depth * 1.01 + 100)).z);
-  }));
-}
-
-TEST(CameraView, ViewFromRelativeIsARotation) {
-  EXPECT_TRUE(rc::check([](const RandomView& random) {
-    const glm::dmat3 rotation(viewFromRelative(random.view));
-    RC_ASSERT(std::abs(glm::determinant(rotation) - 1.0) < 1e-12);
-    const glm::dvec3 ahead = rotation * random.view.forward;
-    RC_ASSERT(glm::length(ahead - glm::dvec3(0, 0, -1)) < 1e-12);
-  }));
-}
-
-TEST(Frustum, HoldsEveryPointOfTheView) {
-  EXPECT_TRUE(rc::check([](const RandomView& random, const RandomUnit& x, const RandomUnit& y, const RandomUnit& d) {
-    const CameraView& view = random.view;
-    const double far = std::min(view.far, view.near + 1000.0);
-    const double depth = view.near + d.value * (far - view.near);
-    Aabb point;
-    point.add(pointAt(view, {2 * x.value - 1, 2 * y.value - 1}, depth));
-    Aabb around = point;
-    const glm::dvec3 slack(1e-9 * (1 + glm::length(point.min)));
-    around.min -= slack;
-    around.max += slack;
-    RC_ASSERT(mayIntersect(frustumOf(view), around));
-  }));
-}
-
 TEST(Frustum, KeepsABoxThatHoldsAnyPointOfTheView) {
   EXPECT_TRUE(rc::check([](const RandomView& random, const RandomUnit& x, const RandomUnit& y, const RandomUnit& size) {
     const CameraView& view = random.view;

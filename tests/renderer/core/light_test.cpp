@@ -32,15 +32,6 @@ TEST(BlackBody, X14_DaylightIsAboutWhite) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(color[i], 1.0, 0.06) << i;
 }
 
-TEST(BlackBody, X14_EmbersAreRedAndTheSkyIsBlue) {
-  const glm::dvec3 warm = blackBodyColor(2000);
-  EXPECT_GT(warm.r, warm.g);
-  EXPECT_GT(warm.g, warm.b);
-  const glm::dvec3 cold = blackBodyColor(12000);
-  EXPECT_LT(cold.r, cold.g);
-  EXPECT_LT(cold.g, cold.b);
-}
-
 /// Illuminant A is a black body of 2856 K: x 0.44757, y 0.40745 (CIE 15), brought to sRGB's primaries here.
 TEST(BlackBody, X14_AnIncandescentLampHasTheColorOfIlluminantA) {
   const glm::dvec3 color = blackBodyColor(2856);

@@ -119,20 +119,6 @@ TEST(Context, isRefusedBesideAnotherBackend) {
   }).join();
 }
 
-TEST(Context, bothBackendsDrawTheSameBytes) {
-  if (!missing(Backend::egl).empty() || !missing(Backend::osmesa).empty()) GTEST_SKIP() << "one back end is missing";
-  if (!made(Backend::egl)->info().software) GTEST_SKIP() << "EGL draws with a GPU, which rounds differently";
-  const std::vector<std::byte> egl = triangleOf(Backend::egl);
-  const std::vector<std::byte> osmesa = triangleOf(Backend::osmesa);
-  EXPECT_EQ(egl, osmesa);
-
-  const auto pixel = [&](std::size_t x, std::size_t y) { return &egl[(y * 64 + x) * 4]; };
-  EXPECT_EQ(pixel(0, 0)[0], std::byte{0}) << "outside of both";
-  EXPECT_EQ(pixel(8, 56)[1], std::byte{255}) << "in the far triangle alone";
-  EXPECT_LT(pixel(24, 28)[1], std::byte{255}) << "the near triangle, which was drawn first, hides the far one";
-  EXPECT_GT(pixel(24, 28)[0], std::byte{0});
-}
-
 TEST(Context, refusesSoftwareWhereAGpuIsRequired) {
   const auto context = createContext({.backend = Backend::auto_, .requireGpu = true});
   if (context) {

@@ -2,7 +2,6 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
-#include <numeric>
 #include <rapidcheck.h>
 
 namespace gnomon {
@@ -73,37 +72,32 @@ TEST(DrawList, HoldsExactlyTheTrianglesOfTheSlotsThatAreKept) {
   }));
 }
 
-TEST(DrawList, NeighbouringClustersAreOneDraw) {
+DrawList listOf(DrawUse use) {
   const Placed placed = threePrimitives();
   const FrameGeometry geometry = frameGeometry(placed.scene, placed.view, glm::dvec3(0));
   const std::vector<std::uint8_t> all(geometry.slotCount(), 1);
-  EXPECT_EQ(buildDrawList(placed.scene, placed.view, geometry, DrawUse::cast, all).ranges.size(), 3u);
+  return buildDrawList(placed.scene, placed.view, geometry, use, all);
+}
+
+TEST(DrawList, NeighbouringClustersAreOneDraw) {
+  EXPECT_EQ(listOf(DrawUse::cast).ranges.size(), 3u);
 }
 
 TEST(DrawList, G2_MaskedMaterialsGetAGroupOfTheirOwnEvenWhenTheyCast) {
-  const Placed placed = threePrimitives();
-  const FrameGeometry geometry = frameGeometry(placed.scene, placed.view, glm::dvec3(0));
-  const std::vector<std::uint8_t> all(geometry.slotCount(), 1);
-  const DrawList list = buildDrawList(placed.scene, placed.view, geometry, DrawUse::cast, all);
+  const DrawList list = listOf(DrawUse::cast);
   ASSERT_EQ(list.groups.size(), 2u);
   EXPECT_EQ(list.groups[0].material, -1);
   EXPECT_EQ(list.groups[1].material, 1);
 }
 
 TEST(DrawList, X34_CastersAreNotCulledByFacing) {
-  const Placed placed = threePrimitives();
-  const FrameGeometry geometry = frameGeometry(placed.scene, placed.view, glm::dvec3(0));
-  const std::vector<std::uint8_t> all(geometry.slotCount(), 1);
-  for (const DrawGroup& group : buildDrawList(placed.scene, placed.view, geometry, DrawUse::cast, all).groups) {
+  for (const DrawGroup& group : listOf(DrawUse::cast).groups) {
     EXPECT_EQ(group.facing, Facing::both);
   }
 }
 
 TEST(DrawList, G4_AMirroredNodeTurnsItsFrontFace) {
-  const Placed placed = threePrimitives();
-  const FrameGeometry geometry = frameGeometry(placed.scene, placed.view, glm::dvec3(0));
-  const std::vector<std::uint8_t> all(geometry.slotCount(), 1);
-  const DrawList list = buildDrawList(placed.scene, placed.view, geometry, DrawUse::surface, all);
+  const DrawList list = listOf(DrawUse::surface);
   ASSERT_EQ(list.groups.size(), 3u);
   EXPECT_EQ(list.groups[0].facing, Facing::counterClockwise);
   EXPECT_EQ(list.groups[1].facing, Facing::clockwise);

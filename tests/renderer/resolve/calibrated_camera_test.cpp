@@ -52,20 +52,6 @@ void expectSameView(const CameraView& a, const CameraView& b) {
   EXPECT_EQ(a.far, b.far);
 }
 
-TEST(CameraPose, TheUnitMatrixLooksAlongItsAxes) {
-  const Rows4 unit{{{1, 0, 0, 3}, {0, 1, 0, 4}, {0, 0, 1, 5}, {0, 0, 0, 1}}};
-  const CameraView openGl = resolved(posed(unit, CameraAxes::opengl)).view;
-  EXPECT_EQ(openGl.eye, glm::dvec3(3, 4, 5));
-  EXPECT_EQ(openGl.right, glm::dvec3(1, 0, 0));
-  EXPECT_EQ(openGl.up, glm::dvec3(0, 1, 0));
-  EXPECT_EQ(openGl.forward, glm::dvec3(0, 0, -1));
-  const CameraView openCv = resolved(posed(unit, CameraAxes::opencv)).view;
-  EXPECT_EQ(openCv.eye, glm::dvec3(3, 4, 5));
-  EXPECT_EQ(openCv.right, glm::dvec3(1, 0, 0));
-  EXPECT_EQ(openCv.up, glm::dvec3(0, -1, 0));
-  EXPECT_EQ(openCv.forward, glm::dvec3(0, 0, 1));
-}
-
 TEST(CameraPose, EitherConventionIsTheLookAtOfTheSameAxes) {
   EXPECT_TRUE(rc::check([](const RandomView& random) {
     const CameraView& view = random.view;
@@ -126,21 +112,6 @@ TEST(Intrinsics, AbsentPrincipalPointIsTheMiddleAndIsTold) {
   EXPECT_FALSE(found.camera.perspective);
   EXPECT_EQ(found.view.center, glm::dvec2(0));
   EXPECT_EQ(found.view.halfSize, glm::dvec2(0.8, 0.8));
-}
-
-TEST(Intrinsics, ShowWhatAFieldOfViewDoes) {
-  Camera byAngle;
-  byAngle.perspective = Perspective{50, 0.2, 70};
-  Camera byLength;
-  const double focal = 240 / std::tan(glm::radians(25.0));
-  byLength.intrinsics = Intrinsics{focal, focal, {}, {}, 0.2, 70};
-  const CameraView a = resolved(byAngle).view;
-  const CameraView b = resolved(byLength).view;
-  EXPECT_NEAR(a.halfSize.x, b.halfSize.x, 1e-15);
-  EXPECT_NEAR(a.halfSize.y, b.halfSize.y, 1e-15);
-  EXPECT_NEAR(glm::length(a.eye - b.eye), 0, 1e-13) << "the usual orbit is as far away";
-  EXPECT_EQ(b.near, 0.2);
-  EXPECT_EQ(b.far, 70);
 }
 
 TEST(Intrinsics, ProjectAsOpenCvDoes) {

@@ -91,22 +91,6 @@ TEST(Framing, NothingNearerHoldsThem) {
   }));
 }
 
-TEST(Framing, ABallFillsThePicture) {
-  Points ball;
-  for (int i = 0; i < 40; ++i) {
-    for (int j = 0; j < 80; ++j) {
-      const double a = i * 3.14159265 / 39, b = j * 3.14159265 / 40;
-      ball.emplace_back(std::sin(a) * std::cos(b), std::cos(a), std::sin(a) * std::sin(b));
-    }
-  }
-  CameraView view = lookingAlong({1, -1, -1}, {0.4, 0.4});
-  view.eye = *framingEye(view, subjectOf(ball));
-  const Margins margins = marginsOf(view, ball);
-  for (const double margin : {margins.left, margins.right, margins.top, margins.bottom}) {
-    EXPECT_NEAR(margin, 2 * kFramingMargin, 0.01);
-  }
-}
-
 TEST(Framing, AnOrthographicPictureHasThemInItsMiddle) {
   const Points points{{0, 0, 0}, {1, 0, 0}, {0, 3, 0}, {5, 1, 2}};
   CameraView view = lookingAlong({0.3, -0.5, -1}, {5, 4});

@@ -1,7 +1,5 @@
 #include "renderer/shadow/shadow_plan.h"
 
-#include <chrono>
-#include <cstdio>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -261,30 +259,6 @@ TEST(ShadowPlan, X15_AnOrthographicCameraGetsItsCascades) {
     ASSERT_EQ(plan.tiles.size(), 4u);
     for (const ShadowTile& tile : plan.tiles) EXPECT_GT(tile.rect.width, 0);
   }
-}
-
-TEST(ShadowPlan, H5_TheSameInputGivesTheSamePlan) {
-  const RandomPlan random = randomPlan(CameraView{}, 5);
-  const ShadowPlan a = planShadows(random.input);
-  const ShadowPlan b = planShadows(random.input);
-  ASSERT_EQ(a.tiles.size(), b.tiles.size());
-  for (std::size_t i = 0; i < a.tiles.size(); ++i) EXPECT_EQ(a.tiles[i].clipFromRelative, b.tiles[i].clipFromRelative);
-}
-
-TEST(ShadowPlan, PlanningAFrameTakesItsTime) {
-  Dice dice(3);
-  PlanInput input = simplePlan(1, 50);
-  input.frameWidth = 1280;
-  input.frameHeight = 720;
-  input.receivers = randomReceivers(dice, 1280, 720, 0.5, 200);
-  double best = 1e9;
-  for (int i = 0; i < 10; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    ASSERT_EQ(planShadows(input).tiles.size(), 4u);
-    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-    best = std::min(best, took.count());
-  }
-  std::printf("1280 x 720, 4 cascades: planned in %.3f ms\n", best);
 }
 
 } // namespace

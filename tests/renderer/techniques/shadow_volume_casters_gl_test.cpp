@@ -1,7 +1,6 @@
 // Technique shadowVolume: what may cast, and what it must not do to it.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <gmock/gmock.h>
 #include <random>
 
@@ -106,19 +105,6 @@ TEST(ShadowVolumeCasters, N3_OpenAndNonManifoldMeshesThrowTheirShadows) {
   }
 }
 
-TEST(ShadowVolumeCasters, G4_NodesMayMirrorShearAndFlatten) {
-  testing::GlbBuilder builder = boxOverFloor();
-  builder.json["nodes"][1]["scale"] = {-1, 0.7, 1.2};
-  // Turned, scaled unevenly, turned again: a shear.
-  nlohmann::json inner = {{"mesh", 0}, {"rotation", {0, 0, 0.3826834, 0.9238795}}};
-  builder.json["nodes"].push_back(inner);
-  builder.addRoot({{"children", {2}}, {"scale", {1.5, 0.4, 0.6}}, {"translation", {-3.5, 1.2, -1}}});
-  builder.addRoot(placed(0, {3, 1.5, -2}, {0.8, 0, 0.8}));
-  const ScenePtr scene = testing::sceneOf(builder);
-  for (const Json& light : {testLights().sun, testLights().lowSun, testLights().point, testLights().spot})
-    expectTruth(scene, volumeSpec(light, usualCamera()));
-}
-
 /// Cards of 2 m over a floor, one above the other, from 1 m upwards.
 ScenePtr stack(int cards) {
   testing::GlbBuilder builder = shapes();
@@ -193,24 +179,6 @@ TEST(ShadowVolumeCasters, G2_MaskedCastersAreRefusedByName) {
   EXPECT_EQ(renderJson(scene, spec.dump()).images.size(), 1u);
   const Problems blended = testing::refusedJson(generatedScene("blended_pane"), own.dump());
   EXPECT_EQ(blended[0].code, ProblemCode::unsupportedFeature);
-}
-
-TEST(ShadowVolumeCasters, G3_DegenerateTrianglesChangeNothing) {
-  // A cube with triangles of no area among the others: corners at one place, and corners on one line.
-  testing::GlbBuilder builder = boxOverFloor();
-  const ScenePtr plain = testing::sceneOf(builder);
-  const auto count = builder.json["accessors"][2]["count"].get<std::size_t>();
-  std::vector<std::uint16_t> indices(count);
-  const auto view = builder.json["accessors"][2]["bufferView"].get<std::size_t>();
-  const auto offset = builder.json["bufferViews"][view]["byteOffset"].get<std::size_t>();
-  std::memcpy(indices.data(), builder.binary.data() + offset, count * sizeof(std::uint16_t));
-  for (const int i : {0, 0, 1, 5, 5, 5, 0, 1, 0}) indices.push_back(static_cast<std::uint16_t>(i));
-  builder.json["meshes"][0]["primitives"][0]["indices"] = builder.addShortIndices(indices);
-  const ScenePtr degenerate = testing::sceneOf(builder);
-  for (const Json& light : {testLights().sun, testLights().point}) {
-    const Json spec = volumeSpec(light, usualCamera());
-    EXPECT_EQ(floatsOf(renderJson(plain, spec.dump())), floatsOf(renderJson(degenerate, spec.dump())));
-  }
 }
 
 } // namespace

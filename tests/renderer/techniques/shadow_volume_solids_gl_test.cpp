@@ -11,7 +11,6 @@ using testing::Difference;
 using testing::difference;
 using testing::placed;
 using testing::shapes;
-using testing::testLights;
 using testing::volumeSpec;
 
 struct Box {
@@ -87,33 +86,6 @@ TEST(ShadowVolumeSolids, N3_ALampShutInAHouseLightsNoStreet) {
       }
     }
   }
-}
-
-TEST(ShadowVolumeSolids, N3_ALampInTheStreetLightsNoHouse) {
-  for (const bool doubleSided : {false, true}) {
-    const ScenePtr scene = houses(street(), doubleSided);
-    for (const Json& light : {lampAt({0.5, 1.5, 0.5}), lampAt({-1, 7, -3}), testLights().sun}) {
-      for (const glm::dvec3& eye : kEyes) {
-        const Difference outside = difference(scene, volumeSpec(light, cameraFrom(toJson(eye), {-2, 0.5, -3})));
-        EXPECT_LE(outside.elsewhere, 1u) << light << toJson(eye); // on a rim, where a volume's cap and wall meet
-        EXPECT_GT(outside.receivers, outside.shadowed) << light << toJson(eye);
-      }
-      // From inside, walls of two sides shut out the street.
-      const Json inside = volumeSpec(light, cameraFrom({-4.2, 1.7, 0.3}, {-5, 0.5, -3}));
-      if (doubleSided) expectDark(scene, inside);
-      EXPECT_EQ(difference(scene, inside).elsewhere, 0u) << light;
-    }
-  }
-}
-
-TEST(ShadowVolumeSolids, N3_LampAndEyeMayShareAHouse) {
-  const Json spec = volumeSpec(lampAt({-4, 2.5, 0.5}), cameraFrom({-4.2, 1.7, 0.3}, {-5, 0.5, -3}));
-  const Difference within = difference(houses(street(), true), spec);
-  EXPECT_EQ(within.elsewhere + within.atEdges + within.shadowed, 0u) << "its walls and its part of the floor";
-  EXPECT_GT(within.receivers, 10000u);
-  const Difference through = difference(houses(street()), spec); // its walls are culled
-  EXPECT_EQ(through.elsewhere, 0u);
-  EXPECT_GT(through.shadowed, 1000u);
 }
 
 TEST(ShadowVolumeSolids, N7_AnyHousesLampAndEyeAgreeWithRays) {

@@ -101,26 +101,6 @@ TEST(ExactShadows, TheirEdgesAreAntialiased) {
   EXPECT_LT(difference / double(a.size()), 0.02);
 }
 
-TEST(ExactShadows, StrengthAndReceiversCount) {
-  const ScenePtr scene = generatedScene("box_on_plane");
-  const std::string hard = shadowSpec(kSun, "rayTraced");
-  const auto full = floatsOf(renderJson(scene, hard));
-  const auto half =
-      floatsOf(renderJson(scene, specOf(kSun, {{"shadow", {{"technique", "rayTraced"}, {"strength", 0.5}}}})));
-  for (std::size_t i = 0; i < full.size(); ++i) ASSERT_NEAR(half[i], 0.5f + 0.5f * full[i], 1e-4f);
-}
-
-TEST(ExactShadows, ASizeSoftensWhatRaysDecide) {
-  const ScenePtr scene = generatedScene("box_on_plane");
-  const char* const wide =
-      R"([{"type":"directional","sun":{"azimuthDegrees":120,"elevationDegrees":35},"angularDiameterDegrees":20}])";
-  const Json shadow{{"technique", "rayTraced"}, {"raySamples", 64}};
-  const Frame frame = renderJson(scene, specOf(wide, {{"shadow", shadow}}));
-  const auto& shares = floatsOf(frame);
-  EXPECT_EQ(frame.report.lights[0].note, "");
-  EXPECT_GT(std::count_if(shares.begin(), shares.end(), [](float s) { return s > 0.05f && s < 0.95f; }), 300);
-}
-
 TEST(ExactShadows, LightsOfSeveralTechniquesShareAFrame) {
   const ScenePtr scene = generatedScene("box_on_plane");
   const Json lights = Json::parse(R"([

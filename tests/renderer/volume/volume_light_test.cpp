@@ -187,13 +187,5 @@ TEST(VolumeLight, IsAsFineAsTheGridUpToALimit) {
   EXPECT_EQ(volumeLightSize(*grid, 16), glm::ivec3(2, 16, 16));
 }
 
-TEST(VolumeLight, NothingInItTakesNothing) {
-  const Medium medium = makeMedium(gridOf({3, 3, 3}, [](const glm::dvec3&) { return 0.0; }), proportional(1),
-                                   boxSpace({0, 0, 0}, {1, 1, 1}));
-  const VolumeLight map = mapOf(medium, kUp, {2, 2, 2});
-  EXPECT_EQ(shareTaken(medium, map, {0.5, -1, 0.5}, kUp), 0);
-  EXPECT_NEAR(lightAt(map, {0.5, 0.5, 0.5}).x, 1, 1e-3);
-}
-
 } // namespace
 } // namespace gnomon

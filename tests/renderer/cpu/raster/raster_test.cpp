@@ -98,19 +98,6 @@ TEST(Raster, TheNearestIsShownAndOfTwoAtOneDepthTheFirst) {
   });
 }
 
-TEST(Raster, OnlyTheSideThatCountsIsDrawn) {
-  const std::vector<glm::vec3> positions{{-3, -1, 0.5f}, {3, -1, 0.5f}, {0, 4, 0.5f}};
-  const auto hits = [&](Facing facing, std::vector<std::uint32_t> indices) {
-    const DepthBuffer buffer = drawn(meshOf(positions, std::move(indices), facing), 16, 16);
-    return buffer.triangles[buffer.at(8, 8)] == 0;
-  };
-  EXPECT_TRUE(hits(Facing::counterClockwise, {0, 1, 2}));
-  EXPECT_FALSE(hits(Facing::counterClockwise, {0, 2, 1}));
-  EXPECT_FALSE(hits(Facing::clockwise, {0, 1, 2}));
-  EXPECT_TRUE(hits(Facing::clockwise, {0, 2, 1}));
-  EXPECT_TRUE(hits(Facing::both, {0, 2, 1}));
-}
-
 /// A camera at the origin that looks along -z, 90 degrees, near plane at 1, far plane at infinity.
 glm::mat4 perspective() {
   glm::mat4 clip(0);

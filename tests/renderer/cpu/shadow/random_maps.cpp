@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "renderer/shaders/shared/functions.h"
+
 namespace gnomon::cpu {
 
 using glm::vec2;
@@ -115,7 +117,7 @@ void addTile(std::mt19937& random, RandomMaps& maps, const MapsOptions& options,
 } // namespace
 
 ShadowMaps RandomMaps::view() const {
-  return {lights, tiles, maps, vec2(tiles.size() == 1 ? 64 : kTestAtlas)};
+  return {lights, tiles, maps, vec2(kTestAtlas)};
 }
 
 RandomMaps randomMaps(std::mt19937& random, const MapsOptions& options) {
@@ -144,34 +146,6 @@ RandomMaps randomMaps(std::mt19937& random, const MapsOptions& options) {
     maps.maps[i].depths = &maps.depths[i];
     maps.maps[i].moments = maps.moments[i];
   }
-  return maps;
-}
-
-RandomMaps exactMaps(std::mt19937& random, const MapsOptions& options) {
-  RandomMaps maps;
-  shared::LightData light = lightData(options);
-  light.direction = vec3(0, 0, -1);
-  light.tileCount = 1;
-  light.filterRadius = 2;
-  const Rect rect{8, 8, 32, 32};
-  shared::TileData tile{};
-  tile.atlasFromRelative[0] = vec4(1.0f / 64, 0, 0, 0);
-  tile.atlasFromRelative[1] = vec4(0, 1.0f / 64, 0, 0);
-  tile.atlasFromRelative[2] = vec4(0, 0, 1.0f / 64, 0);
-  tile.atlasFromRelative[3] = vec4(0, 0, 0, 1);
-  tile.lowest = vec2(12.0f / 64);
-  tile.highest = vec2(36.0f / 64);
-  tile.far = 100;
-  tile.blendNear = 100;
-  tile.atlasPerMetre = vec2(1.0f / 64);
-  tile.axis = vec3(0, 0, 1);
-  tile.texelDepth = 1.0f / 64;
-  tile.right = vec3(1.0f / 64, 0, 0);
-  tile.up = vec3(0, 1.0f / 64, 0);
-  addTile(random, maps, options, rect, tile);
-  maps.lights.push_back(light);
-  maps.maps[0].depths = &maps.depths[0];
-  maps.maps[0].moments = maps.moments[0];
   return maps;
 }
 

@@ -38,9 +38,6 @@ RandomMaps randomMaps(std::mt19937& random, const MapsOptions& options);
 /// Points in and around what the tiles cover; their surfaces face every way, some along the light.
 std::vector<AskedPoint> randomPoints(std::mt19937& random, const RandomMaps& maps, int count);
 
-/// A tile in which every sum is exact: 32 texels a side at (8, 8) of an atlas of 64, a texel a metre, light along +z.
-RandomMaps exactMaps(std::mt19937& random, const MapsOptions& options);
-
 float between(std::mt19937& random, float low, float high);
 glm::vec3 randomDirection(std::mt19937& random);
 

@@ -27,14 +27,6 @@ void marked(const ShadowMaps& maps, std::span<const AskedPoint> points, std::spa
   }
 }
 
-void tints(const ShadowMaps& maps, std::span<const AskedPoint> points, glm::vec3* out) {
-  for (std::size_t first = 0; first < points.size(); first += kLanes) {
-    const PointPacket packet = pointPacket(points, first);
-    const Float3 tint = cascadeTint(maps, 0, packet.receiver, packet.toLight);
-    storePoints(tint, out + first, packet.count);
-  }
-}
-
 } // namespace gnomon::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -43,7 +35,6 @@ namespace gnomon::cpu {
 
 GNOMON_EXPORT_KERNEL(visibilities);
 GNOMON_EXPORT_KERNEL(marked);
-GNOMON_EXPORT_KERNEL(tints);
 
 void visibilitiesByLanes(const ShadowMaps& maps, std::span<const AskedPoint> points, float* out) {
   GNOMON_KERNEL(visibilities)(maps, points, out);
@@ -51,10 +42,6 @@ void visibilitiesByLanes(const ShadowMaps& maps, std::span<const AskedPoint> poi
 
 void markByLanes(const ShadowMaps& maps, std::span<const AskedPoint> points, std::span<TexelMarks> marks) {
   GNOMON_KERNEL(marked)(maps, points, marks);
-}
-
-void tintsByLanes(const ShadowMaps& maps, std::span<const AskedPoint> points, glm::vec3* out) {
-  GNOMON_KERNEL(tints)(maps, points, out);
 }
 
 } // namespace gnomon::cpu

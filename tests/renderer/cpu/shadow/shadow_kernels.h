@@ -28,7 +28,5 @@ struct AskedPoint {
 void visibilitiesByLanes(const ShadowMaps& maps, std::span<const AskedPoint> points, float* out);
 /// markMapReads of light 0.
 void markByLanes(const ShadowMaps& maps, std::span<const AskedPoint> points, std::span<TexelMarks> marks);
-/// cascadeTint of light 0.
-void tintsByLanes(const ShadowMaps& maps, std::span<const AskedPoint> points, glm::vec3* out);
 
 } // namespace gnomon::cpu

@@ -261,11 +261,4 @@ float shadowVisibility(const ShadowMaps& maps, int light, const AskedPoint& rece
   return mix(1.0f, visibility, data.strength);
 }
 
-vec3 cascadeTint(const ShadowMaps& maps, int light, const AskedPoint& receiver) {
-  const vec3 tints[] = {GNOMON_TINTS_0_3, GNOMON_TINTS_4_7};
-  const TileChoice choice = chooseTile(maps, light, receiver);
-  if (!choice.covered) return vec3(1.0f);
-  return mix(mix(tints[choice.first], tints[choice.second], choice.blend), vec3(1.0f), choice.fade);
-}
-
 } // namespace gnomon::cpu::truth

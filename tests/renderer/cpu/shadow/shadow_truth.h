@@ -23,6 +23,5 @@ struct TileChoice {
 Lookup lookupIn(const shared::LightData& light, const shared::TileData& tile, const AskedPoint& receiver);
 TileChoice chooseTile(const ShadowMaps& maps, int light, const AskedPoint& receiver);
 float shadowVisibility(const ShadowMaps& maps, int light, const AskedPoint& receiver);
-glm::vec3 cascadeTint(const ShadowMaps& maps, int light, const AskedPoint& receiver);
 
 } // namespace gnomon::cpu::truth

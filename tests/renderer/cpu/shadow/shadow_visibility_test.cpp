@@ -131,100 +131,6 @@ TEST(ShadowVisibility, NeighboursThatSeeTheSameGiveWhatTheShadersText) {
   }
 }
 
-std::vector<AskedPoint> quarterSteps(const RandomMaps& maps) {
-  std::vector<AskedPoint> points;
-  for (int y = 40; y <= 152; ++y) { // from 10 to 38 texels; the bounds lie at 12 and 36
-    for (int x = 40; x <= 152; ++x) {
-      AskedPoint point;
-      point.relative = glm::vec3(0.25f * static_cast<float>(x), 0.25f * static_cast<float>(y), 20 + (x + y) % 32);
-      point.toLight = maps.lights[0].direction;
-      point.normal = point.toLight;
-      point.groupBit = 2;
-      points.push_back(point);
-    }
-  }
-  return points;
-}
-
-TEST(ShadowVisibility, BoundsAndEdgesOfTexelsAreExact) {
-  for (const int samples : {1, 4}) {
-    for (const int size : {1, 3, 5, 7}) {
-      std::mt19937 random(8);
-      RandomMaps maps = exactMaps(random, {.filterSize = size, .samples = samples});
-      maps.lights[0].strength = 1;
-      const std::vector<AskedPoint> points = quarterSteps(maps);
-      const ShadowMaps view = maps.view();
-      const std::vector<float> expected = expectedOf(view, points);
-      onEachInstructionSet([&] {
-        std::vector<float> seen(points.size());
-        visibilitiesByLanes(view, points, seen.data());
-        for (std::size_t i = 0; i < points.size(); ++i) {
-          const glm::vec3& at = points[i].relative;
-          ASSERT_NEAR(seen[i], expected[i], 1e-6) << size << " at " << at.x << " " << at.y << " " << at.z;
-          const bool beyond = std::min(at.x, at.y) < 12 || std::max(at.x, at.y) > 36;
-          ASSERT_TRUE(!beyond || seen[i] == 1.0f) << at.x << " " << at.y;
-        }
-      });
-    }
-  }
-}
-
-TEST(ShadowVisibility, FacesTurnedAwayAreInShadow) {
-  std::mt19937 random(9);
-  const RandomMaps maps = exactMaps(random, {});
-  AskedPoint point;
-  point.relative = glm::vec3(20, 20, 10);
-  point.toLight = maps.lights[0].direction;
-  point.normal = -point.toLight;
-  point.groupBit = 2;
-  onEachInstructionSet([&] {
-    float seen = -1;
-    visibilitiesByLanes(maps.view(), {&point, 1}, &seen);
-    EXPECT_FLOAT_EQ(seen, 0.1f);
-  });
-}
-
-TEST(ShadowVisibility, ATileWithoutTexelsIsLit) {
-  std::mt19937 random(9);
-  RandomMaps maps = exactMaps(random, {});
-  maps.maps[0] = {};
-  std::swap(maps.tiles[0].lowest, maps.tiles[0].highest);
-  AskedPoint point;
-  point.relative = glm::vec3(20, 20, 60);
-  point.toLight = maps.lights[0].direction;
-  point.normal = point.toLight;
-  point.groupBit = 2;
-  onEachInstructionSet([&] {
-    float seen = -1;
-    visibilitiesByLanes(maps.view(), {&point, 1}, &seen);
-    EXPECT_FLOAT_EQ(seen, 1);
-  });
-}
-
-TEST(ShadowVisibility, LayersAreReadPixelByPixel) {
-  for (const int samples : {1, 4}) {
-    for (const bool omitsTurnedFaces : {false, true}) {
-      std::mt19937 random(10);
-      RandomMaps maps = randomMaps(random, {});
-      maps.lights[0].visibilityLayer = 2;
-      maps.lights[0].layerOmitsTurnedFaces = omitsTurnedFaces ? 1 : 0;
-      std::vector<AskedPoint> points = randomPoints(random, maps, kPoints);
-      for (AskedPoint& point : points) point.samples = samples == 1 ? 1u : 1u + static_cast<unsigned>(random() % 15);
-      const int width = 640;
-      std::vector<std::uint16_t> values(static_cast<std::size_t>(width * (kPoints / width + 1) * samples + 1));
-      for (std::uint16_t& value : values) value = static_cast<std::uint16_t>(random());
-      const Layer layers[] = {{}, {values.data(), width, samples}};
-      ShadowMaps view = maps.view();
-      view.layers = layers;
-      const std::vector<float> expected = expectedOf(view, points);
-      onEachInstructionSet([&] {
-        const Difference off = differences(view, points, expected);
-        EXPECT_LE(off.greatest, 1e-6f);
-      });
-    }
-  }
-}
-
 /// Puts something else into every texel that is not marked.
 void poison(RandomMaps& maps, const std::vector<TexelMarks>& marks, float depth, float moment) {
   for (std::size_t i = 0; i < maps.depths.size(); ++i) {
@@ -276,24 +182,6 @@ TEST(ReadTexels, NothingButMarkedTexelsIsEverRead) {
         visibilitiesByLanes(poisoned.view(), points, seen.data());
         EXPECT_EQ(seen, expected);
       }
-    });
-  }
-}
-
-TEST(CascadeTint, LanesGiveWhatTheShadersText) {
-  for (const int type : {GNOMON_DIRECTIONAL, GNOMON_POINT}) {
-    std::mt19937 random(11);
-    const RandomMaps maps = randomMaps(random, {.lightType = type, .fadesOut = true});
-    const std::vector<AskedPoint> points = randomPoints(random, maps, kPoints);
-    onEachInstructionSet([&] {
-      std::vector<glm::vec3> seen(points.size());
-      tintsByLanes(maps.view(), points, seen.data());
-      float greatest = 0;
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        const glm::vec3 off = glm::abs(seen[i] - truth::cascadeTint(maps.view(), 0, points[i]));
-        greatest = std::max({greatest, off.x, off.y, off.z});
-      }
-      EXPECT_LE(greatest, 1e-5f);
     });
   }
 }

@@ -5,7 +5,7 @@
 
 #include "renderer/core/camera_view.h"
 #include "renderer/cpu/frame_scene.h"
-#include "tests/renderer/cpu/surface/shading_kernels.h"
+#include "tests/renderer/cpu/surface/surface_kernels.h"
 
 namespace gnomon::cpu {
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/renderer/cpu/instruction_sets.h"
-#include "tests/renderer/cpu/shadow/place_truth.h"
+#include "tests/renderer/cpu/surface/place_truth.h"
 
 namespace gnomon::cpu {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "renderer/shaders/shared/functions.h"
 #include "tests/renderer/cpu/instruction_sets.h"
-#include "tests/renderer/cpu/shadow/place_truth.h"
+#include "tests/renderer/cpu/surface/place_truth.h"
 #include "tests/renderer/cpu/surface/sampled_truth.h"
 
 namespace gnomon::cpu {

@@ -1,11 +1,11 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE \
-  "tests/renderer/cpu/surface/shading_kernels.cpp" // NOLINT: included again for each instruction set
-#include "tests/renderer/cpu/surface/shading_kernels.h"
+  "tests/renderer/cpu/surface/surface_kernels.cpp" // NOLINT: included again for each instruction set
+#include "tests/renderer/cpu/surface/surface_kernels.h"
 
 #include <hwy/foreach_target.h>
 
-#include "renderer/cpu/surface/shading-inl.h"
+#include "renderer/cpu/surface/surface-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
@@ -49,23 +49,6 @@ void surfaces(const FrameScene& scene, const FragmentInput& in, NumberTable& out
   }
 }
 
-void pictures(const FrameScene& scene, const LightInput& lights, const FragmentInput& in, NumberTable& out) {
-  const Lighting lighting{lights.lights, lights.lists};
-  // A light's share is told by its number, so that lights can't be mixed up.
-  const auto visibility = [](std::uint32_t light, const Receiver&, const Float3&, const Mask&)
-                              HWY_ATTR { return Float(light % 2 == 0 ? 1.0f : 0.25f); };
-  for (std::size_t row = 0; row < out.rows; row += kLanes) {
-    const Fragments fragments = fragmentsAt(in, row);
-    const Surface surface = any(fragments.shown) ? surfaceOf(scene, in.textures, fragments) : Surface{};
-    const Float3 radiance = radianceToEye(scene, lighting, fragments, surface, visibility);
-    const Float3 color = shownColor(seenLight(radiance, Float3(0.0f), 1.0f), scene.frame.exposureScale,
-                                    lights.encoded ? GNOMON_TONE_ACES : GNOMON_TONE_NONE);
-    store(color.x, out.column(0) + row);
-    store(color.y, out.column(1) + row);
-    store(color.z, out.column(2) + row);
-  }
-}
-
 } // namespace gnomon::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -73,17 +56,10 @@ HWY_AFTER_NAMESPACE();
 namespace gnomon::cpu {
 
 GNOMON_EXPORT_KERNEL(surfaces);
-GNOMON_EXPORT_KERNEL(pictures);
 
 NumberTable surfacesByLanes(const FrameScene& scene, const FragmentInput& in) {
   NumberTable out(in.triangles.size(), kSurfaceNumbers);
   GNOMON_KERNEL(surfaces)(scene, in, out);
-  return out;
-}
-
-NumberTable picturesByLanes(const FrameScene& scene, const LightInput& lights, const FragmentInput& in) {
-  NumberTable out(in.triangles.size(), 3);
-  GNOMON_KERNEL(pictures)(scene, lights, in, out);
   return out;
 }
 

@@ -36,13 +36,4 @@ enum SurfaceNumber : std::size_t {
 /// What surface-inl.h makes of each place.
 NumberTable surfacesByLanes(const FrameScene& scene, const FragmentInput& in);
 
-struct LightInput {
-  std::span<const shared::LightData> lights;
-  std::span<const std::uint32_t> lists; ///< as Lighting::lists
-  bool encoded = true;
-};
-
-/// Red, green and blue. Of lights with an odd number a quarter arrives.
-NumberTable picturesByLanes(const FrameScene& scene, const LightInput& lights, const FragmentInput& in);
-
 } // namespace gnomon::cpu
