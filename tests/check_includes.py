@@ -5,10 +5,11 @@ usage: check_includes.py [ROOT]      prints one line a fault; exit status 1 if t
 
 Who may include whom, one way:
   protocol/base <- protocol <- renderer/core <- renderer/image <- renderer/scene; core <- renderer/{shadow,volume,video};
-  scene <- renderer/reference <- renderer/bake; scene, shadow <- renderer/prepare <- renderer/resolve;
+  scene <- renderer/rays <- renderer/bake, renderer/reference; scene, shadow <- renderer/prepare <- renderer/resolve;
   bake, prepare <- renderer/techniques;
   bake, resolve, volume <- renderer/device <- renderer/frame <- renderer/evaluation, renderer/export
            <- renderer/render.h <- server/worker;
+  reference <- evaluation, and of frame only the error views: what draws never sees what judges it;
   protocol <- server/system <- server/redis, server/wire <- server/worker, server/http <- server/access, server/scenes <- server/dispatch
            <- server/metrics <- server/handlers <- server/process: of the server, only its workers see the renderer;
   clients see protocol and renderer/render.h. Beside that way, renderer/cpu and renderer/{gl,passes,shaders} implement
@@ -24,7 +25,7 @@ ROOMS = ("protocol", "renderer", "server", "clients")
 
 VALUES = ["protocol", "renderer/core", "renderer/image", "renderer/scene", "renderer/shadow"]
 PREPARED = VALUES + ["renderer/shaders/shared", "renderer/prepare"]
-SETTLED = PREPARED + ["renderer/reference", "renderer/resolve"]
+SETTLED = PREPARED + ["renderer/rays", "renderer/resolve"]
 DEVICE = SETTLED + ["renderer/bake", "renderer/volume", "renderer/device"]
 FRAME = DEVICE + ["renderer/frame"]
 
@@ -41,18 +42,21 @@ MAY_INCLUDE = {
     "renderer/scene": ["protocol", "renderer/core", "renderer/image", "renderer/scene"],
     "renderer/shadow": ["protocol", "renderer/core", "renderer/shadow"],
     "renderer/volume": ["protocol", "renderer/core", "renderer/volume"],
-    "renderer/reference": ["protocol", "renderer/core", "renderer/image", "renderer/scene", "renderer/shaders/shared",
-                           "renderer/reference"],
-    "renderer/bake": ["protocol", "renderer/core", "renderer/scene", "renderer/reference", "renderer/bake"],
+    "renderer/rays": ["protocol", "renderer/core", "renderer/image", "renderer/scene", "renderer/shaders/shared", "renderer/rays"],
+    "renderer/reference": ["protocol", "renderer/core", "renderer/scene", "renderer/rays", "renderer/reference"],
+    "renderer/bake": ["protocol", "renderer/core", "renderer/scene", "renderer/rays", "renderer/bake"],
     "renderer/shaders": ["renderer/shaders", "renderer/shaders/shared"],
     "renderer/shaders/shared": ["renderer/shaders/shared"],
     "renderer/prepare": PREPARED,
-    "renderer/techniques": PREPARED + ["renderer/reference", "renderer/bake", "renderer/techniques"],
+    "renderer/techniques": PREPARED + ["renderer/rays", "renderer/bake", "renderer/techniques"],
     "renderer/resolve": PREPARED + ["renderer/resolve"],
     "renderer/device": DEVICE,
     "renderer/frame": FRAME,
+    "renderer/frame/frame_views.h": FRAME + ["renderer/reference"],
+    "renderer/frame/frame_views.cpp": FRAME + ["renderer/reference"],
+    "renderer/frame/predicted_displacement.cpp": FRAME + ["renderer/reference"],
     "renderer/export": FRAME + ["renderer/export"],
-    "renderer/evaluation": FRAME + ["renderer/evaluation"],
+    "renderer/evaluation": FRAME + ["renderer/reference", "renderer/evaluation"],
     "renderer/cpu": DEVICE + ["renderer/techniques", "renderer/cpu"],
     "renderer/gl": VALUES + ["renderer/shaders", "renderer/gl"],
     "renderer/passes": DEVICE + ["renderer/techniques", "renderer/shaders", "renderer/gl", "renderer/passes"],
@@ -116,7 +120,7 @@ KEPT_IN = {
     "glad/": ["renderer/gl", "renderer/passes"],
     "GL/": ["renderer/gl"],
     "EGL/": ["renderer/gl"],
-    "embree3/": ["renderer/reference"],
+    "embree3/": ["renderer/rays"],
     "hwy/": ["renderer/cpu"],
     "openvdb/": ["renderer/volume/vdb"],
     "systemd/": ["server/process/service_manager.cpp"],

@@ -26,7 +26,7 @@ endfunction()
 
 # What a frame needs apart from who draws it: planning, reports and evaluations draw through renderer/device alone.
 foreach(target gnomon_bake gnomon_charts gnomon_cpu gnomon_device gnomon_evaluation gnomon_export gnomon_frame gnomon_prepare
-               gnomon_reference gnomon_resolve gnomon_techniques gnomon_video gnomon_volume)
+               gnomon_rays gnomon_reference gnomon_resolve gnomon_techniques gnomon_video gnomon_volume)
   gnomon_links_nothing_of(${target} gnomon_gl gnomon_passes gnomon_glad)
 endforeach()
 

@@ -5,7 +5,7 @@
 #include "renderer/bake/light_map.h"
 #include "renderer/bake/light_map_layout.h"
 #include "renderer/core/stop.h"
-#include "renderer/reference/trace.h"
+#include "renderer/rays/trace.h"
 
 namespace gnomon {
 

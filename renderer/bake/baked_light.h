@@ -4,7 +4,6 @@
 #include <memory>
 #include <vector>
 
-#include "renderer/bake/even_blocks.h"
 #include "renderer/bake/light_map.h"
 #include "renderer/bake/light_map_layout.h"
 

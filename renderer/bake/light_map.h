@@ -1,9 +1,9 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 namespace gnomon {
@@ -22,19 +22,7 @@ struct LightMap {
   }
 };
 
-/// Between the centres of the four texels around a place of the map, 0..1. REQUIRES: the map is not empty.
-inline float shareAt(const LightMap& map, const glm::vec2& place) {
-  const glm::vec2 from = glm::floor(place - 0.5f);
-  const glm::vec2 part = place - 0.5f - from;
-  const int x = static_cast<int>(from.x);
-  const int y = static_cast<int>(from.y);
-  const auto value = [&](int dx, int dy) { return static_cast<float>(map.at(x + dx, y + dy)); };
-  const float below = value(0, 0) + part.x * (value(1, 0) - value(0, 0));
-  const float above = value(0, 1) + part.x * (value(1, 1) - value(0, 1));
-  return (below + part.y * (above - below)) * (1.0f / 65535.0f);
-}
-
-/// The same in 0..65535, faster. REQUIRES: at least two texels a side.
+/// Between the centres of the four texels around a place of the map, 0..65535. REQUIRES: at least two texels a side.
 inline float scaledShareAt(const LightMap& map, const glm::vec2& place) {
   const int x = std::clamp(static_cast<int>(place.x - 0.5f), 0, map.width - 2);
   const int y = std::clamp(static_cast<int>(place.y - 0.5f), 0, map.height - 2);
@@ -47,5 +35,24 @@ inline float scaledShareAt(const LightMap& map, const glm::vec2& place) {
   const float above = static_cast<float>(high[0]) + right * static_cast<float>(high[1] - high[0]);
   return below + up * (above - below);
 }
+
+/// Blocks of a light map with one value: most of it is lit or dark as a whole, so that few bytes suffice.
+struct EvenBlocks {
+  static constexpr int kSide = 8;             ///< texels
+  static constexpr std::uint16_t kUneven = 1; ///< a share that no block is said to have
+  int columns = 0;                            ///< blocks
+  std::vector<std::uint16_t> shares;          ///< row by row; behind the last one more, which means nothing
+
+  std::size_t bytes() const { return shares.capacity() * sizeof(shares[0]); }
+};
+
+/// Of each block the share that all of its texels have, and those beside it to the right and above, so that it is what
+/// is read anywhere between them; else kUneven.
+EvenBlocks evenBlocks(const LightMap& map);
+
+/// Of each triangle the share that is read anywhere in it, if that is one; else EvenBlocks::kUneven. Behind the last
+/// one more, which means nothing. `even`: of the map; `corners`: three a triangle, texels.
+std::vector<std::uint16_t> evenTriangles(const LightMap& map, const EvenBlocks& even,
+                                         std::span<const glm::vec2> corners);
 
 } // namespace gnomon

@@ -8,7 +8,7 @@
 #include "renderer/core/fingerprint.h"
 #include "renderer/cpu/cpu_frame.h"
 #include "renderer/cpu/lanes/instruction_set.h"
-#include "renderer/reference/ray_vectors.h"
+#include "renderer/rays/traced_scene.h"
 
 namespace gnomon {
 namespace {

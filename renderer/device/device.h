@@ -13,7 +13,7 @@
 #include "renderer/bake/baked_light.h"
 #include "renderer/image/image.h"
 #include "renderer/prepare/lit_light.h"
-#include "renderer/reference/traced_scene.h"
+#include "renderer/rays/traced_scene.h"
 #include "renderer/resolve/resolve_frame.h"
 #include "renderer/volume/frame_volumes.h"
 

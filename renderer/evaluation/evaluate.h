@@ -41,11 +41,10 @@ struct EvaluationTools {
 
 /// Callbacks for the progress of an evaluation; may be empty.
 struct EvaluationListener {
-  /// Told before every frame, and again and again while rays are traced or a path is followed; by one thread at a time,
-  /// not always the same.
-  /// False asks to stop.
+  /// Called before every frame, and repeatedly while rays are traced or a path is followed; by one thread at a time,
+  /// not always the same. False asks to stop.
   std::function<bool(const EvaluationStep&)> step;
-  /// Told of each row once its errors are known, or its problem; times come with the report.
+  /// Called for each row once its errors are known, or its problem; times come with the report.
   std::function<void(std::size_t index, const EvaluationRow&)> row;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <tuple>
 
 #include "protocol/spec/traits.h"
 #include "renderer/resolve/plan_input.h"
@@ -60,10 +61,6 @@ Problems placedInSpec(Problems problems) {
   return problems;
 }
 
-bool betterBy(double a, double b, double nextA, double nextB) {
-  return a != b ? a < b : nextA < nextB;
-}
-
 } // namespace
 
 std::vector<QualityTrial> qualityTrials(const FrameSpec& spec) {
@@ -119,8 +116,8 @@ Result<QualityReport> chooseTrial(const Quality& target, std::vector<QualityTria
   const auto better = [&](const QualityTrial& a, const QualityTrial& b) {
     if (meets(a) != meets(b)) return meets(a);
     const bool bySpeed = target.maxError.has_value() == meets(a);
-    return bySpeed ? betterBy(a.milliseconds, b.milliseconds, a.error, b.error)
-                   : betterBy(a.error, b.error, a.milliseconds, b.milliseconds);
+    return bySpeed ? std::tie(a.milliseconds, a.error) < std::tie(b.milliseconds, b.error)
+                   : std::tie(a.error, a.milliseconds) < std::tie(b.error, b.milliseconds);
   };
   const auto best = std::min_element(report.tried.begin(), report.tried.end(), better);
   report.chosen = static_cast<std::size_t>(best - report.tried.begin());

@@ -21,10 +21,6 @@ struct Watched {
   std::vector<std::uint8_t> lit; ///< S >= 0.5, one a point; empty before the first frame
 };
 
-Problem stopped() {
-  return {ProblemCode::unavailable, "", "The measurement was stopped."};
-}
-
 /// A scene along a path of cameras.
 struct SettledPath {
   ScenePtr scene; ///< posed
@@ -117,12 +113,12 @@ void passRangesOn(const ShadowPlan& plan, FrameSpec& next) {
   }
 }
 
-/// Casts a frame's shadows and asks every point for its light. Gives the flips and the plan.
 struct ProbedFrame {
   std::uint64_t flips = 0;
   ShadowPlan plan;
 };
 
+/// Casts a frame's shadows and asks every point for its light.
 Result<ProbedFrame> probeFrame(Device& device, const ScenePtr& scene, const ResolvedFrame& frame,
                                std::vector<Watched>& watched) {
   const SceneView& view = scene->scenes[static_cast<std::size_t>(frame.scene)];
@@ -177,7 +173,9 @@ Result<Shimmer> measureShimmer(Device& device, TracedSceneCache& tracedScenes, c
   if (watched->empty()) return shimmer;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     dropExact(frames[i].spec);
-    if (progress && !progress(static_cast<double>(i) / static_cast<double>(frames.size()))) return stopped();
+    if (progress && !progress(static_cast<double>(i) / static_cast<double>(frames.size()))) {
+      return Problem{ProblemCode::unavailable, "", "The measurement was stopped."};
+    }
     const auto probed = probeFrame(device, scene, frames[i], *watched);
     if (!probed) return probed.problems();
     shimmer.flips += probed->flips;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "renderer/core/linear_algebra.h"
-#include "renderer/reference/frame_nodes.h"
+#include "renderer/rays/trace.h"
 
 namespace gnomon {
 

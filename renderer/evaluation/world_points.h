@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "protocol/evaluation/evaluation.h"
-#include "renderer/reference/trace.h"
+#include "renderer/rays/trace.h"
 
 namespace gnomon {
 

@@ -6,7 +6,7 @@
 #include "protocol/spec/format_traits.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/image/image.h"
-#include "renderer/reference/trace.h"
+#include "renderer/rays/trace.h"
 #include "renderer/scene/scene.h"
 
 /// Views of what each pixel's centre shows: numbers that come from the scene alone, in double precision, whatever

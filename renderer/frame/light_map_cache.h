@@ -11,7 +11,7 @@
 #include "renderer/bake/baked_light.h"
 #include "renderer/core/stop.h"
 #include "renderer/frame/light_map_store.h"
-#include "renderer/reference/trace.h"
+#include "renderer/rays/trace.h"
 
 namespace gnomon {
 

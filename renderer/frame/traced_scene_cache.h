@@ -7,7 +7,7 @@
 
 #include "protocol/base/lru.h"
 #include "protocol/base/result.h"
-#include "renderer/reference/traced_scene.h"
+#include "renderer/rays/traced_scene.h"
 
 namespace gnomon {
 

@@ -13,7 +13,7 @@
 #include "renderer/core/linear_algebra.h"
 #include "renderer/core/parallel.h"
 #include "renderer/device/shader_data.h"
-#include "renderer/reference/trace.h"
+#include "renderer/rays/trace.h"
 #include "renderer/resolve/plan_input.h"
 #include "renderer/scene/animation/node_places.h"
 #include "renderer/shaders/shared/functions.h"

@@ -6,7 +6,7 @@
 #include <new>
 
 #include "protocol/base/elapsed.h"
-#include "renderer/reference/frame_nodes.h"
+#include "renderer/rays/trace.h"
 
 namespace gnomon {
 namespace {

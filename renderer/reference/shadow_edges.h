@@ -76,7 +76,7 @@ void forEachCrack(const Reference& truth, const SurfaceLinks& links, std::span<c
 }
 
 /// The edge's normal at a side of a pixel that it runs along, by the pixels of one class and the other around: unit
-/// length, on the picture, x right and y down. Absent where there are too few to tell.
+/// length, on the picture, x right and y down. Absent where there are too few.
 std::optional<glm::dvec2> edgeNormal(const Reference& truth, std::span<const std::uint8_t> receiver,
                                      std::span<const float> values, const PixelPair& pair);
 

@@ -1,8 +1,7 @@
-#include "renderer/techniques/baked_shadow.h"
-
 #include <algorithm>
 
 #include "renderer/techniques/picture_shares.h"
+#include "renderer/techniques/traced_shadow.h"
 
 namespace gnomon {
 namespace {

@@ -1,8 +1,7 @@
-#include "renderer/techniques/edge_samples.h"
-
 #include <numeric>
 
 #include "renderer/core/stop.h"
+#include "renderer/techniques/picture_shares.h"
 
 namespace gnomon {
 namespace {

@@ -1,8 +1,7 @@
-#include "renderer/techniques/penumbra_filter.h"
-
 #include <algorithm>
 
 #include "renderer/core/parallel.h"
+#include "renderer/techniques/picture_shares.h"
 #include "renderer/techniques/share_square.h"
 
 namespace gnomon {

@@ -1,5 +1,3 @@
-#include "renderer/techniques/penumbras.h"
-
 #include <algorithm>
 #include <functional>
 #include <iterator>
@@ -9,7 +7,7 @@
 #include "renderer/core/stop.h"
 #include "renderer/core/vectors.h"
 #include "renderer/techniques/neighbours.h"
-#include "renderer/techniques/penumbra_filter.h"
+#include "renderer/techniques/picture_shares.h"
 
 namespace gnomon {
 namespace {

@@ -59,12 +59,10 @@ std::optional<std::uint32_t> PicturePoints::onlyNumberOfSamplesIn(const Rect& bl
 DrawnBlock PicturePoints::drawnBlock(const Rect& block, std::uint32_t number) const {
   DrawnBlock drawn;
   const glm::vec2 sample = grid_.positions.front();
-  const auto placeOf = [&](int x, int y) {
-    return glm::vec2(static_cast<float>(x) + sample.x,
-                     static_cast<float>(grid_.height) - (static_cast<float>(y) + sample.y));
-  };
-  drawn.first = placeOf(block.x, block.y);
-  drawn.last = placeOf(block.x + block.width - 1, block.y + block.height - 1);
+  const glm::ivec2 first(block.x, block.y);
+  const glm::ivec2 last(block.x + block.width - 1, block.y + block.height - 1);
+  drawn.first = placeIn(grid_, grid_.numberOf(first), sample);
+  drawn.last = placeIn(grid_, grid_.numberOf(last), sample);
   drawn.shown = placed(number);
   return drawn;
 }

@@ -9,7 +9,7 @@
 
 #include "renderer/core/rect.h"
 #include "renderer/prepare/draw_list.h"
-#include "renderer/reference/trace.h"
+#include "renderer/rays/trace.h"
 
 namespace gnomon {
 

@@ -30,9 +30,6 @@ using Pixels = std::vector<std::uint32_t>;
 inline int blockColumns(const SampleGrid& grid) {
   return (grid.width + kBlockWidth - 1) / kBlockWidth;
 }
-inline int blockRows(const SampleGrid& grid) {
-  return (grid.height + kBlockHeight - 1) / kBlockHeight;
-}
 
 /// Block number `number`, row by row from the lowest. It may reach over the picture's right and upper side.
 inline Rect blockOf(const SampleGrid& grid, std::uint32_t number) {
@@ -43,7 +40,8 @@ inline Rect blockOf(const SampleGrid& grid, std::uint32_t number) {
 
 /// Calls `each(block)` for all blocks of the picture, in parallel.
 inline void forEachBlock(const SampleGrid& grid, const std::function<void(const Rect&)>& each) {
-  const std::size_t count = static_cast<std::size_t>(blockColumns(grid)) * static_cast<std::size_t>(blockRows(grid));
+  const int rows = (grid.height + kBlockHeight - 1) / kBlockHeight;
+  const std::size_t count = static_cast<std::size_t>(blockColumns(grid)) * static_cast<std::size_t>(rows);
   forEach(count, [&](std::size_t i) { each(blockOf(grid, static_cast<std::uint32_t>(i))); });
 }
 
@@ -155,5 +153,33 @@ Pixels pixelsBeside(PictureShares& shares, const Pixels& pixels, Keep keep) {
   for (const std::uint32_t pixel : beside) shares.taken[pixel] = 0;
   return beside;
 }
+
+// Send rays from every sample of some pixels, and give the pixels whose shares changed.
+
+/// From where camera rays lead, to a light that has no size. Bit by bit what a reference finds there.
+Pixels traceExactly(const PicturePoints& points, const TracedLight& light, const Pixels& pixels, PictureShares& shares);
+
+/// To a light that has a size, whose shares are estimates: from where camera rays lead only if that is another triangle
+/// than was drawn. `rays`: of a sample. REQUIRES: tracePenumbras.
+Pixels traceDoubtful(const PicturePoints& points, const TracedLight& light, int rays, const Pixels& pixels,
+                     PictureShares& shares);
+
+/// The same from the points as they were drawn, without camera rays. The samples of a pixel go to other places of the
+/// light.
+Pixels traceSamples(const PicturePoints& points, const TracedLight& light, int rays, const Pixels& pixels,
+                    PictureShares& shares);
+
+/// Sends more rays to a light that has a size from where the first one a pixel, which `shares` holds, leaves a doubt:
+/// to 4 from every pixel that lies within two of where shares differ, until there is none any more, and from those
+/// beside masks, where what shows may be a pixel large; then to four times as many, and so on up to `samples`, from
+/// those that differ by as much as an edge or noise would. At last evens out what noise is left. The places on the
+/// light that the first rays of 4 x 4 pixels go to fill it evenly, so that a penumbra is missed only where it takes a
+/// few hundredths of the light at most.
+void tracePenumbras(const PicturePoints& points, const TracedLight& light, int samples, PictureShares& shares);
+
+/// Few rays leave noise in a penumbra, which is another from pixel to pixel, while a wide penumbra is nearly the same:
+/// brings each pixel that more rays than the first were sent from as close to the slope of those around it as noise has
+/// to do with their differences (share_square.h). `raysOf`: how many rays a pixel has had after each round.
+void evenOut(const PicturePoints& points, std::span<const int> raysOf, PictureShares& shares);
 
 } // namespace gnomon

@@ -5,10 +5,8 @@
 
 #include "protocol/spec/traits.h"
 #include "renderer/core/parallel.h"
-#include "renderer/techniques/edge_samples.h"
 #include "renderer/techniques/neighbours.h"
-#include "renderer/techniques/penumbras.h"
-#include "renderer/techniques/triangles_across.h"
+#include "renderer/techniques/picture_shares.h"
 
 namespace gnomon {
 namespace {
@@ -17,6 +15,33 @@ constexpr int kLeastHeight = 8; ///< of blocks that are asked for as a whole
 
 /// Shares of a soft shadow that differ by less lie within a penumbra some pixels wide.
 constexpr std::uint8_t kSoftEdge = 128;
+
+/// What the triangles that a few pixels side by side show see of a light, where one answer holds for all of a triangle.
+class TrianglesAcross {
+ public:
+  TrianglesAcross(const PicturePoints& points, const TracedLight& light) : points_(points), light_(light) {
+    numbers_.fill(kNoNumber);
+  }
+
+  /// REQUIRES: the number of a triangle that is shown.
+  LightAcross of(std::uint32_t number) {
+    if (!light_.knowsTriangles()) return LightAcross::unsure;
+    const std::size_t at = number % kRemembered;
+    if (numbers_[at] != number) {
+      numbers_[at] = number;
+      across_[at] = light_.across(points_.placed(number));
+    }
+    return across_[at];
+  }
+
+ private:
+  static constexpr std::size_t kRemembered = 8;
+
+  const PicturePoints& points_;
+  const TracedLight& light_;
+  std::array<std::uint32_t, kRemembered> numbers_; ///< by their last bits
+  std::array<LightAcross, kRemembered> across_;
+};
 
 /// One light's shadow over the picture while rays complete it.
 class ShadowTracing {
@@ -102,16 +127,12 @@ class ShadowTracing {
   void setLit(const Rect& block) {
     const std::size_t width = static_cast<std::size_t>(std::min(block.width, grid().width - block.x));
     for (int y = block.y; y < std::min(block.y + block.height, grid().height); ++y) {
-      const std::uint32_t first = numberOf({block.x, y});
+      const std::uint32_t first = grid().numberOf({block.x, y});
       std::fill_n(known_.valuesOf(first), width * places_, std::uint16_t{65535});
       std::fill_n(known_.shares.begin() + first, width, std::uint8_t{255});
       std::fill_n(known_.marks.begin() + first, width, std::uint8_t{0});
     }
   }
-
-  void set(std::uint32_t pixel, float share) { known_.set(pixel, share); }
-
-  std::uint32_t numberOf(const glm::ivec2& pixel) const { return grid().numberOf(pixel); }
 
   /// What is lit, and what shows no surface, is left as it is: lit.
   std::uint64_t traceBlock(const Rect& block) {
@@ -164,8 +185,8 @@ class ShadowTracing {
   }
 
   void setTurnedAway(const glm::ivec2& pixel) {
-    set(numberOf(pixel), 0);
-    known_.marks[numberOf(pixel)] = kAway;
+    known_.set(grid().numberOf(pixel), 0);
+    known_.marks[grid().numberOf(pixel)] = kAway;
   }
 
   /// Then none wait any more.
@@ -175,8 +196,8 @@ class ShadowTracing {
     light_.visibility(points_.drawn(waiting), 0, 1, found, away);
     for (std::size_t i = 0; i < waiting.count; ++i) {
       if (found[i] == 1) continue;
-      const std::uint32_t pixel = numberOf(waiting.pixels[i]);
-      set(pixel, found[i]);
+      const std::uint32_t pixel = grid().numberOf(waiting.pixels[i]);
+      known_.set(pixel, found[i]);
       known_.marks[pixel] = away[i] != 0 ? kAway : 0;
     }
     waiting.count = 0;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "renderer/bake/baked_light.h"
 #include "renderer/core/vectors.h"
 #include "renderer/techniques/picture_points.h"
 
@@ -22,7 +23,11 @@ bool sendsRays(std::span<const int> layered, std::span<const Light> lights);
 /// what a camera ray meets within rounding of a surface's rim, and an edge may pass between the samples of a pixel. So
 /// a camera ray finds the point of every sample next to masks, where a surface that is turned away from the light ends,
 /// and wherever a pixel's share differs from a neighbour's. `samples`: most rays a pixel towards a light that has a
-/// size, which takes them in penumbras alone (penumbras.h).
+/// size, which takes them in penumbras alone (tracePenumbras).
 TracedShadow tracedShadow(const PicturePoints& points, const TraceInput& rays, int light, int samples);
+
+/// Looks up what each sample of the picture sees of a baked light. Lit where nothing shows. What is turned away from
+/// the light has the share of the surface's other side, and is dark.
+TracedShadow bakedShadow(const PicturePoints& points, const BakedLight& baked);
 
 } // namespace gnomon

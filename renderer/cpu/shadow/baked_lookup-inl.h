@@ -8,7 +8,7 @@
 
 #include <bit>
 
-#include "renderer/bake/even_blocks.h"
+#include "renderer/bake/light_map.h"
 #include "renderer/cpu/lanes/gather-inl.h"
 #include "renderer/cpu/shadow/shadow_maps.h"
 #include "renderer/cpu/surface/fragments-inl.h"

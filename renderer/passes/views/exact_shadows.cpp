@@ -12,7 +12,6 @@
 #include "renderer/core/light.h"
 #include "renderer/passes/stencil/stencil_pass.h"
 #include "renderer/passes/views/shown_triangles.h"
-#include "renderer/techniques/baked_shadow.h"
 #include "renderer/techniques/traced_shadow.h"
 
 namespace gnomon {

@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "renderer/core/parallel.h"
-#include "tests/renderer/reference/shapes.h"
+#include "tests/renderer/bake/share_at.h"
+#include "tests/renderer/rays/shapes.h"
 
 namespace gnomon {
 namespace {
@@ -33,7 +34,7 @@ TEST(BakeLightMap, WhatNothingHidesIsLitAndWhatASquareHidesIsDark) {
   ASSERT_TRUE(map.has_value());
   const auto shareOn = [&](std::uint32_t instance, const glm::dvec2& weights) {
     const FlatTriangle t = layout.flat({instance, 0});
-    return shareAt(*map, glm::vec2(t[0] + weights.x * (t[1] - t[0]) + weights.y * (t[2] - t[0])));
+    return testing::shareAt(*map, glm::vec2(t[0] + weights.x * (t[1] - t[0]) + weights.y * (t[2] - t[0])));
   };
   EXPECT_EQ(shareOn(0, {0.02, 0.49}), 0) << "the middle of the floor, under the square";
   EXPECT_EQ(shareOn(0, {0.05, 0.05}), 1);
@@ -61,7 +62,7 @@ TEST(BakeLightMap, BothWaysToReadItSayTheSame) {
   for (int i = 0; i < 20; ++i) map.shares.push_back(static_cast<std::uint16_t>(i * 9973 % 65536));
   for (float x = 0.5f; x <= 4.5f; x += 0.125f) {
     for (float y = 0.5f; y <= 3.5f; y += 0.125f) {
-      EXPECT_NEAR(scaledShareAt(map, {x, y}), shareAt(map, {x, y}) * 65535, 0.1) << x << " " << y;
+      EXPECT_NEAR(scaledShareAt(map, {x, y}), testing::shareAt(map, {x, y}) * 65535, 0.1) << x << " " << y;
     }
   }
   for (const glm::vec2& beyond : {glm::vec2(-3, -3), glm::vec2(0), glm::vec2(9, 9), glm::vec2(-1, 9)}) {

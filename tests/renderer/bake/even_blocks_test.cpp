@@ -1,7 +1,8 @@
-#include "renderer/bake/even_blocks.h"
-
 #include <gtest/gtest.h>
 #include <random>
+
+#include "renderer/bake/light_map.h"
+#include "tests/renderer/bake/share_at.h"
 
 namespace gnomon {
 namespace {
@@ -22,7 +23,7 @@ TEST(EvenBlocks, HoldWhatIsReadAnywhereInABlock) {
       const glm::ivec2 texel = glm::clamp(glm::ivec2(place - 0.5f), glm::ivec2(0), size - 2) / EvenBlocks::kSide;
       const std::uint16_t share = even.shares[static_cast<std::size_t>(texel.y * even.columns + texel.x)];
       if (share == EvenBlocks::kUneven) continue;
-      EXPECT_FLOAT_EQ(shareAt(map, place), static_cast<float>(share) / 65535.0f);
+      EXPECT_FLOAT_EQ(testing::shareAt(map, place), static_cast<float>(share) / 65535.0f);
     }
   }
 }
@@ -63,7 +64,7 @@ TEST(EvenTriangles, HoldWhatIsReadAnywhereInATriangle) {
       const float u = weight(random);
       const float v = weight(random) * (1 - u);
       const glm::vec2 within = at[0] + u * (at[1] - at[0]) + v * (at[2] - at[0]);
-      EXPECT_FLOAT_EQ(shareAt(map, within), static_cast<float>(shares[i]) / 65535.0f);
+      EXPECT_FLOAT_EQ(testing::shareAt(map, within), static_cast<float>(shares[i]) / 65535.0f);
     }
   }
   EXPECT_GT(uneven, 100);

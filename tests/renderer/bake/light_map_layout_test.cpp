@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <set>
 
-#include "tests/renderer/reference/shapes.h"
+#include "tests/renderer/rays/shapes.h"
 
 namespace gnomon {
 namespace {

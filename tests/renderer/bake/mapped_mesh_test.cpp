@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/renderer/reference/shapes.h"
+#include "tests/renderer/rays/shapes.h"
 
 namespace gnomon {
 namespace {

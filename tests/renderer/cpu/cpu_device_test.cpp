@@ -5,7 +5,7 @@
 #include <set>
 #include <strings.h>
 
-#include "renderer/reference/ray_vectors.h"
+#include "renderer/rays/traced_scene.h"
 
 namespace gnomon {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <tbb/global_control.h>
 
-#include "tests/renderer/reference/shapes.h"
+#include "tests/renderer/rays/shapes.h"
 
 namespace gnomon {
 namespace {

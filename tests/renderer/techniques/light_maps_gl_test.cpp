@@ -1,7 +1,7 @@
 // Shadows that are baked once and looked up by each frame.
 #include <cmath>
 
-#include "tests/renderer/reference/shapes.h"
+#include "tests/renderer/rays/shapes.h"
 #include "tests/renderer/scene/animation/animated.h"
 #include "tests/renderer/techniques/traced_frame.h"
 

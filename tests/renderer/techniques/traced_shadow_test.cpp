@@ -8,7 +8,7 @@
 #include <tbb/global_control.h>
 
 #include "renderer/prepare/frame_geometry.h"
-#include "tests/renderer/reference/shapes.h"
+#include "tests/renderer/rays/shapes.h"
 
 namespace gnomon {
 namespace {

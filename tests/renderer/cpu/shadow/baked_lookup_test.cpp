@@ -1,6 +1,7 @@
 #include <random>
 
-#include "renderer/bake/even_blocks.h"
+#include "renderer/bake/light_map.h"
+#include "tests/renderer/bake/share_at.h"
 #include "tests/renderer/cpu/instruction_sets.h"
 #include "tests/renderer/cpu/shadow/shadow_kernels.h"
 
@@ -68,7 +69,7 @@ float expected(const MadeMap& made, const AskedPoint& point, float strength) {
   const glm::vec2* corner = &made.corners[3 * made.baked.numberOf(point.triangle)];
   const glm::vec2 place =
       corner[0] + point.weights.x * (corner[1] - corner[0]) + point.weights.y * (corner[2] - corner[0]);
-  return 1 - strength * (1 - shareAt(made.map, place));
+  return 1 - strength * (1 - testing::shareAt(made.map, place));
 }
 
 ShadowMaps mapsOf(const shared::LightData& light, const Layer& layer) {
