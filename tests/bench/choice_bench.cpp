@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <iostream>
 #include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -28,20 +27,13 @@ struct NamedLight {
 
 /// Suns, and lamps above the middle of the scene.
 std::vector<NamedLight> lightsOver(const Aabb& bounds) {
-  const double size = glm::length(bounds.max - bounds.min);
-  const glm::dvec3 middle = bounds.center();
-  const glm::dvec3 lamp = glm::dvec3(middle.x, bounds.max.y, middle.z) + glm::dvec3(0.15, 0.35, 0.2) * size;
-  const glm::dvec3 down = middle - lamp;
-  const Json sun = {{"type", "directional"}, {"sun", {{"azimuthDegrees", 135}, {"elevationDegrees", 40}}}};
-  Json softSun = sun;
+  const Json sun = sunLight(), spot = spotOver(bounds);
+  Json softSun = sun, ball = spot, point = spot;
   softSun["angularDiameterDegrees"] = 0.53;
-  const Json point = {{"type", "point"}, {"position", {lamp.x, lamp.y, lamp.z}}, {"intensity", 4 * size * size}};
-  Json spot = point;
-  spot["type"] = "spot";
-  spot["direction"] = {down.x, down.y, down.z};
-  spot["outerConeDegrees"] = 50;
-  Json ball = spot;
-  ball["radius"] = 0.02 * size;
+  ball["radius"] = 0.02 * glm::length(bounds.max - bounds.min);
+  point["type"] = "point";
+  point.erase("direction");
+  point.erase("outerConeDegrees");
   return {{"sun", sun}, {"soft sun", softSun}, {"spot", spot}, {"soft spot", ball}, {"point", point}};
 }
 
@@ -94,19 +86,13 @@ int main(int argc, char** argv) {
   std::vector<std::string> files, only;
   int repeats = 5;
   DeviceChoice device = DeviceChoice::auto_;
-  const std::map<std::string, DeviceChoice> devices{
-      {"auto", DeviceChoice::auto_}, {"cpu", DeviceChoice::cpu}, {"gl", DeviceChoice::gl}};
   app.add_option("--folder", folders, "Folder of models with a manifest.json");
   app.add_option("--file", files, "A GLB");
   app.add_option("--light", only, "Only lights of this name");
   app.add_option("--repeats", repeats, "Frames each")->check(CLI::Range(1, 100));
-  app.add_option("--device", device, "What draws")->transform(CLI::CheckedTransformer(devices));
+  addDevice(app, device);
   CLI11_PARSE(app, argc, argv);
-  auto renderer = Renderer::create({.backend = {.device = device}});
-  if (!renderer) {
-    std::cerr << renderer.problems().front().detail << '\n';
-    return 1;
-  }
+  Renderer renderer = rendererOf(device);
   std::vector<NamedScene> scenes;
   for (const auto& folder : folders) {
     for (NamedScene& each : gatheredScenes(folder)) scenes.push_back(std::move(each));
@@ -119,7 +105,7 @@ int main(int argc, char** argv) {
   std::set<std::string> models;
   std::cout << "scene,light,width,height,samples,triangles,holed,off,map,rays\n";
   for (const NamedScene& scene : scenes) {
-    const std::string model = scene.name.substr(0, scene.name.find('/'));
+    const std::string model = modelOf(scene);
     const SceneView& view = scene.scene->scenes[static_cast<std::size_t>(scene.scene->defaultScene)];
     if (!models.insert(model).second || view.bounds.empty()) continue;
     const SceneCounts counts = shadowCounts(*scene.scene, view);
@@ -128,7 +114,7 @@ int main(int argc, char** argv) {
       for (const Size& size : kSizes) {
         std::cout << model << ',' << light.name << ',' << size.width << ',' << size.height << ',' << size.samples << ','
                   << counts.triangles << ',' << counts.holed;
-        for (const double time : fastest(*renderer, scene.scene, light.light, size, repeats)) std::cout << ',' << time;
+        for (const double time : fastest(renderer, scene.scene, light.light, size, repeats)) std::cout << ',' << time;
         std::cout << std::endl;
       }
     }

@@ -1,24 +1,109 @@
 // What shadows cost against what they are asked for, as ratios to the depth-only floor measured in the same run. Writes
 // README.md and a plot for each series into a folder.
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <filesystem>
 #include <iostream>
+#include <map>
+#include <memory>
 #include <thread>
 
-#include "tests/bench/measure.h"
+#include "protocol/base/elapsed.h"
+#include "protocol/json/json_codec.h"
+#include "protocol/spec/frame_lights.h"
+#include "tests/bench/cost_series.h"
+#include "tests/bench/depth_floor.h"
 #include "tests/bench/svg_plot.h"
-#include "tests/support/files.h"
+#include "tests/bench/tools.h"
 
 namespace gnomon::bench {
 namespace {
+
+/// Medians of one point, milliseconds.
+struct Cost {
+  double floor = 0;                     ///< the bare depth-only draw of what is in view
+  double whole = 0;                     ///< a warm request, from the decoded spec to pixels, not encoded
+  std::map<std::string, double> stages; ///< of the report
+  std::string problem;                  ///< why there is no figure; empty = measured
+};
+
+/// A point while its rounds go on.
+struct Running {
+  ScenePtr scene;
+  FrameSpec spec;
+  std::unique_ptr<DepthFloor> floor;
+  std::map<std::string, std::vector<double>> times;
+  std::string problem;
+};
+
+FrameSpec turned(FrameSpec spec, int round) {
+  for (Light& light : *spec.lights) {
+    if (light.sun) light.sun->azimuthDegrees += 0.01 * round;
+    if (light.direction) (*light.direction)[0] += 1e-4 * round;
+  }
+  return spec;
+}
+
+void drawOnce(Renderer& renderer, Running& point, int round) {
+  const double floor = point.floor->draw();
+  const FrameSpec spec = turned(point.spec, round);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto frame = renderer.render(point.scene, spec);
+  const double whole = millisecondsSince(begin);
+  if (!frame) {
+    point.problem = frame.problems().front().detail;
+    return;
+  }
+  if (round == 0) return;
+  point.times["floor"].push_back(floor);
+  point.times["whole"].push_back(whole);
+  for (const StageTime& stage : frame->report.stages) point.times[stage.stage].push_back(stage.milliseconds);
+}
+
+Running start(Renderer& renderer, const CostPoint& point) {
+  Running running;
+  const auto spec = decodeFrameSpec(point.spec.dump());
+  if (!spec) {
+    running.problem = spec.problems().front().pointer + ": " + spec.problems().front().detail;
+    return running;
+  }
+  running.spec = *spec;
+  running.scene = point.scene();
+  running.floor = std::make_unique<DepthFloor>(*running.scene, running.spec, samplesOf(running.spec.antialiasing));
+  drawOnce(renderer, running, 0);
+  return running;
+}
+
+Cost costOf(Running& point) {
+  Cost cost;
+  cost.problem = point.problem;
+  if (!cost.problem.empty()) return cost;
+  for (auto& [name, values] : point.times) cost.stages[name] = median(values);
+  cost.floor = cost.stages.extract("floor").mapped();
+  cost.whole = cost.stages.extract("whole").mapped();
+  return cost;
+}
+
+/// Draws floors and frames in turn, so that noise meets all alike, after a first of each that is not counted. Every
+/// frame turns the lights by a little, so that none of its shadows can be one that was kept. One cost for each point.
+std::vector<Cost> measure(Renderer& renderer, const CostSeries& series, int rounds) {
+  std::vector<Running> points;
+  for (const CostPoint& point : series.points) points.push_back(start(renderer, point));
+  for (int round = 1; round <= rounds; ++round) {
+    for (Running& point : points) {
+      if (point.problem.empty()) drawOnce(renderer, point, round);
+    }
+  }
+  std::vector<Cost> costs;
+  for (Running& point : points) costs.push_back(costOf(point));
+  return costs;
+}
 
 /// What is shown of a frame's stages; the rest of `whole` is the survey, the plan and the read-back.
 const std::vector<std::string> kShown = {"shadow", "shade"};
 
 std::string ratio(double milliseconds, const Cost& cost) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", milliseconds / cost.floor);
-  return text;
+  return rounded(milliseconds / cost.floor, 2);
 }
 
 double stageOf(const Cost& cost, const std::string& stage) {
@@ -35,9 +120,7 @@ std::string tableRows(const CostSeries& series, const std::vector<Cost>& costs) 
       out += "| | | " + cost.problem + " |\n";
       continue;
     }
-    char floor[32];
-    std::snprintf(floor, sizeof floor, "%.1f", cost.floor);
-    out += std::string(floor) + " | ";
+    out += rounded(cost.floor, 1) + " | ";
     for (const std::string& stage : kShown) out += ratio(stageOf(cost, stage), cost) + " | ";
     out += "**" + ratio(cost.whole, cost) + "** |\n";
   }
@@ -60,10 +143,6 @@ Plot plotOf(const CostSeries& series, const std::vector<Cost>& costs) {
   line("whole frame", [](const Cost& cost) { return cost.whole; });
   for (const std::string& stage : kShown) line(stage, [&](const Cost& cost) { return stageOf(cost, stage); });
   return plot;
-}
-
-void writeText(const std::filesystem::path& path, const std::string& text) {
-  testing::writeFile(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
 std::string headOf(const Renderer& renderer, const nlohmann::json& spec, int rounds) {

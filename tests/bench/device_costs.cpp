@@ -6,8 +6,7 @@
 #include "protocol/json/json_codec.h"
 #include "tests/bench/depth_floor.h"
 #include "tests/bench/gnomon_process.h"
-#include "tests/bench/median.h"
-#include "tests/support/files.h"
+#include "tests/bench/tools.h"
 
 namespace gnomon::bench {
 namespace {
@@ -77,8 +76,7 @@ CostRow cold(const DeviceRun& run, const BenchScene& scene) {
   const auto folder = std::filesystem::temp_directory_path();
   const std::string picture = (folder / ("gnomon_bench_" + scene.name + ".png")).string();
   const std::string request = (folder / ("gnomon_bench_" + scene.name + ".json")).string();
-  const std::string text = specOf(scene, settings().front(), 0).dump();
-  testing::writeFile(request, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  writeText(request, specOf(scene, settings().front(), 0).dump());
   std::vector<std::function<double(int)>> calls;
   for (const std::string& device : run.devices) {
     calls.emplace_back([&, device](int) {
@@ -105,19 +103,6 @@ const std::vector<Setting>& settings() {
       {"defaults", json::object(), 4},
   };
   return all;
-}
-
-std::vector<double> mediansInTurns(int rounds, const std::vector<std::function<double(int)>>& calls) {
-  std::vector<std::vector<double>> times(calls.size());
-  for (int round = 0; round <= rounds; ++round) {
-    for (std::size_t i = 0; i < calls.size(); ++i) {
-      const double time = calls[i](round);
-      if (round > 0) times[i].push_back(time);
-    }
-  }
-  std::vector<double> medians;
-  for (std::vector<double>& each : times) medians.push_back(median(std::move(each)));
-  return medians;
 }
 
 std::vector<CostRow> costsOf(const DeviceRun& run, const BenchScene& scene) {

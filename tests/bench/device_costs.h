@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,9 +35,6 @@ struct CostRow {
   std::vector<double> processor; ///< time of all threads for the same frames; empty = not measured
   std::optional<double> floor;   ///< the bare depth-only draw through OpenGL, where there is one and it is meant
 };
-
-/// Each call once a round, in turn, so that noise meets all; a first round, which warms up, does not count. Medians.
-std::vector<double> mediansInTurns(int rounds, const std::vector<std::function<double(int round)>>& calls);
 
 /// Warm frames in every setting (with the floor as one more turn), a cold one from the command line, and the server's
 /// peak memory after all of these.

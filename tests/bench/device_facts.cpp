@@ -10,7 +10,7 @@
 #include "tests/bench/bodies_scene.h"
 #include "tests/bench/cost_series.h"
 #include "tests/bench/gnomon_process.h"
-#include "tests/support/files.h"
+#include "tests/bench/tools.h"
 
 namespace gnomon::bench {
 namespace {

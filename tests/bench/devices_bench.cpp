@@ -9,35 +9,28 @@
 #include "renderer/passes/gl_device.h"
 #include "tests/bench/device_facts.h"
 #include "tests/bench/gnomon_process.h"
-#include "tests/bench/hall_scene.h"
 #include "tests/bench/svg_plot.h"
-#include "tests/support/files.h"
+#include "tests/bench/tools.h"
 
 namespace gnomon::bench {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string printed(double value, int digits) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
-}
-
 std::string rowText(const DeviceRun& run, const CostRow& row) {
   std::string out = "| " + row.scene + " | " + row.setting + ", " + row.unit;
-  for (const double value : row.devices) out += " | " + printed(value, value < 100 && row.unit == "ms" ? 1 : 0);
-  if (run.devices.size() > 1) out += " | **" + printed(row.devices[1] / row.devices[0], 1) + "**";
+  for (const double value : row.devices) out += " | " + rounded(value, value < 100 && row.unit == "ms" ? 1 : 0);
+  if (run.devices.size() > 1) out += " | **" + rounded(row.devices[1] / row.devices[0], 1) + "**";
   for (std::size_t i = 0; i < run.devices.size(); ++i) {
-    out += " | " + (i < row.processor.size() ? printed(row.processor[i], 0) : "");
+    out += " | " + (i < row.processor.size() ? rounded(row.processor[i], 0) : "");
   }
-  if (run.devices.size() > 1) out += " | " + (row.floor ? printed(row.devices[0] / *row.floor, 2) : "");
+  if (run.devices.size() > 1) out += " | " + (row.floor ? rounded(row.devices[0] / *row.floor, 2) : "");
   return out + " |\n";
 }
 
 std::string factText(const DeviceFact& fact) {
   std::string out = "| " + fact.what;
-  for (const auto& value : fact.devices) out += " | " + (value ? printed(*value, fact.digits) : "");
+  for (const auto& value : fact.devices) out += " | " + (value ? rounded(*value, fact.digits) : "");
   return out + " |\n";
 }
 

@@ -7,21 +7,17 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "protocol/base/elapsed.h"
 #include "protocol/json/json_codec.h"
 #include "renderer/render.h"
 #include "tests/bench/depth_floor.h"
-#include "tests/bench/median.h"
-#include "tests/support/files.h"
+#include "tests/bench/tools.h"
 #include "tests/support/png_of.h"
 
 namespace gnomon::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
 
 struct Size {
   int width, height;
@@ -70,8 +66,8 @@ std::vector<StageTime> request(const std::string& json) {
   const auto encodeBegin = Clock::now();
   benchmark::DoNotOptimize(testing::pngOf(frame));
   std::vector<StageTime> stages = std::move(frame.report.stages);
-  stages.push_back({"encode", since(encodeBegin)});
-  stages.push_back({"whole", since(begin)});
+  stages.push_back({"encode", millisecondsSince(encodeBegin)});
+  stages.push_back({"whole", millisecondsSince(begin)});
   return stages;
 }
 

@@ -11,7 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "tests/bench/process_status.h"
+#include "protocol/base/elapsed.h"
+#include "tests/bench/tools.h"
 
 namespace gnomon::bench {
 namespace {
@@ -19,10 +20,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kPatienceSeconds = 120;
-
-double since(Clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
 
 std::vector<std::string> environmentOf(const Program& program) {
   std::vector<std::string> all;
@@ -133,7 +130,7 @@ double Connection::draw(const std::string& scene, const nlohmann::json& spec) {
   const auto begin = Clock::now();
   const auto reply =
       client_->http.Post("/v1/scenes/" + scene + "/frames", {{"Accept", "image/png"}}, body, "application/json");
-  const double time = since(begin);
+  const double time = millisecondsSince(begin);
   bodyOf(reply);
   return time;
 }
@@ -159,9 +156,9 @@ Server::Server(const Program& program) {
   for (;;) {
     const auto reply = client.Get("/readyz");
     if (reply && reply->status == 200) break;
-    if (since(begin) > 1000.0 * kPatienceSeconds) throw std::runtime_error("the server does not get ready");
+    if (millisecondsSince(begin) > 1000.0 * kPatienceSeconds) throw std::runtime_error("the server does not get ready");
   }
-  ready_ = since(begin);
+  ready_ = millisecondsSince(begin);
 }
 
 Server::~Server() {
@@ -186,7 +183,7 @@ double renderMilliseconds(const Program& program, std::vector<std::string> argum
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   const auto begin = Clock::now();
   const bool good = endedWell(start(program, arguments, nowhere));
-  const double time = since(begin);
+  const double time = millisecondsSince(begin);
   close(nowhere);
   if (!good) throw std::runtime_error("gnomon render failed");
   return time;

@@ -1,11 +1,10 @@
-#include "tests/bench/hall_scene.h"
-
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <random>
 
 #include "renderer/core/parallel.h"
+#include "tests/bench/bench_scenes.h"
 #include "tests/bench/hall_textures.h"
 #include "tests/bench/sheets.h"
 #include "tests/support/files.h"

@@ -1,8 +1,7 @@
-#include "tests/bench/hall_scene.h"
-
 #include <gtest/gtest.h>
 
 #include "renderer/render.h"
+#include "tests/bench/bench_scenes.h"
 #include "tests/support/files.h"
 
 namespace gnomon::bench {

@@ -15,7 +15,7 @@
 
 #include "renderer/image/image_codec.h"
 #include "renderer/scene/gltf_loader.h"
-#include "tests/bench/process_status.h"
+#include "tests/bench/tools.h"
 #include "tests/support/files.h"
 #include "tests/support/gathered_model.h"
 

@@ -14,7 +14,7 @@
 #include "renderer/render.h"
 #include "renderer/resolve/resolve_frame.h"
 #include "tests/bench/other_picture.h"
-#include "tests/support/files.h"
+#include "tests/bench/tools.h"
 
 namespace gnomon::bench {
 namespace {
@@ -135,16 +135,11 @@ std::vector<OwnDevice> ownDevices() {
 /// Medians of whole frames that are not encoded, their tiles drawn anew. The frames take turns, so that what slows the
 /// machine for a while slows each of them; the first turn, which compiles, is not counted.
 std::vector<double> millisecondsOf(const ScenePtr& scene, const std::vector<OwnFrame>& frames, int repeats) {
-  std::vector<std::vector<double>> times(frames.size());
-  for (int turn = 0; turn <= repeats; ++turn) {
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      const double milliseconds = millisecondsOf(*frames[i].renderer, scene, frames[i].spec);
-      if (turn > 0) times[i].push_back(milliseconds);
-    }
+  std::vector<std::function<double(int)>> calls;
+  for (const OwnFrame& frame : frames) {
+    calls.emplace_back([&](int) { return millisecondsOf(*frame.renderer, scene, frame.spec); });
   }
-  std::vector<double> medians;
-  for (std::vector<double>& each : times) medians.push_back(median(std::move(each)));
-  return medians;
+  return mediansInTurns(repeats, calls);
 }
 
 nlohmann::json ownRows(std::vector<OwnDevice>& devices, const ScenePtr& scene, const nlohmann::json& spec,

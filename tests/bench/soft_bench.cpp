@@ -6,9 +6,9 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <stdexcept>
 #include <thread>
 
 #include "protocol/base/elapsed.h"
@@ -16,8 +16,7 @@
 #include "renderer/evaluation/evaluate.h"
 #include "renderer/render.h"
 #include "tests/bench/gathered_scenes.h"
-#include "tests/bench/median.h"
-#include "tests/bench/rounded.h"
+#include "tests/bench/tools.h"
 
 namespace gnomon::bench {
 namespace {
@@ -53,23 +52,10 @@ Json with(Json light, const char* field, double value) {
 
 /// Two suns, and a lamp above the middle of a scene that is taken for one of 10 m.
 std::vector<SizedLight> lightsOver(const Aabb& bounds) {
-  const Json sun = {{"type", "directional"}, {"sun", {{"azimuthDegrees", 135}, {"elevationDegrees", 40}}}};
-  const double size = glm::length(bounds.max - bounds.min);
-  const glm::dvec3 middle = bounds.center();
-  const glm::dvec3 lamp = glm::dvec3(middle.x, bounds.max.y, middle.z) + glm::dvec3(0.15, 0.35, 0.2) * size;
-  const glm::dvec3 down = middle - lamp;
-  const Json spot = {{"type", "spot"},
-                     {"position", {lamp.x, lamp.y, lamp.z}},
-                     {"direction", {down.x, down.y, down.z}},
-                     {"outerConeDegrees", 50},
-                     {"intensity", 4 * size * size}};
+  const Json sun = sunLight(), spot = spotOver(bounds);
   return {{"sun, 0.53 degrees", with(sun, "angularDiameterDegrees", 0.53), sun},
           {"sun, 5 degrees", with(sun, "angularDiameterDegrees", 5), sun},
-          {"lamp, 0.2 m", with(spot, "radius", 0.02 * size), spot}};
-}
-
-std::string modelOf(const NamedScene& scene) {
-  return scene.name.substr(0, scene.name.find('/'));
+          {"lamp, 0.2 m", with(spot, "radius", 0.02 * glm::length(bounds.max - bounds.min)), spot}};
 }
 
 struct Found {
@@ -125,16 +111,15 @@ class SoftBench {
 
   /// Of warm frames, soft and sharp ones taking turns.
   double timeRatio(const NamedScene& scene, const SizedLight& light, const Json& shadow) {
-    const FrameSpec specs[] = {specOf(light.soft, shadow), specOf(light.sharp, shadow)};
-    std::vector<double> times[2];
-    for (int turn = 0; turn <= repeats_; ++turn) {
-      for (std::size_t i = 0; i < 2; ++i) {
+    const auto timed = [&](const Json& sized) -> std::function<double(int)> {
+      return [this, &scene, spec = specOf(sized, shadow)](int) {
         const auto start = std::chrono::steady_clock::now();
-        const auto frame = draw(scene, specs[i]);
-        if (turn > 0 && frame) times[i].push_back(millisecondsSince(start));
-      }
-    }
-    return median(times[0]) / median(times[1]);
+        if (!draw(scene, spec)) throw std::runtime_error(scene.name + " is drawn no more");
+        return millisecondsSince(start);
+      };
+    };
+    const std::vector<double> times = mediansInTurns(repeats_, {timed(light.soft), timed(light.sharp)});
+    return times[0] / times[1];
   }
 
   Renderer& renderer_;
@@ -171,23 +156,17 @@ int main(int argc, char** argv) {
   int samples = 1024;
   std::vector<std::string> chosen, only;
   DeviceChoice device = DeviceChoice::auto_;
-  const std::map<std::string, DeviceChoice> devices{
-      {"auto", DeviceChoice::auto_}, {"cpu", DeviceChoice::cpu}, {"gl", DeviceChoice::gl}};
   app.add_option("--assets", assets, "Folder of gathered models with a manifest.json");
   app.add_option("--technique", chosen, "One of those of the table; may come several times; all where it does not");
   app.add_option("--model", only, "Only this one; may come several times");
   app.add_option("--repeats", repeats, "Timed pairs of frames")->check(CLI::Range(1, 100));
   app.add_option("--samples", samples, "Rays a pixel of the reference")->check(CLI::Range(1, 1024));
-  app.add_option("--device", device, "What draws")->transform(CLI::CheckedTransformer(devices));
+  addDevice(app, device);
   CLI11_PARSE(app, argc, argv);
 
-  auto renderer = Renderer::create({.backend = {.device = device}});
-  if (!renderer) {
-    std::cerr << renderer.problems().front().detail << '\n';
-    return 1;
-  }
+  Renderer renderer = rendererOf(device);
   const std::vector<Way> ways = waysCalled(chosen);
-  SoftBench bench(*renderer, ways, repeats, samples);
+  SoftBench bench(renderer, ways, repeats, samples);
   std::vector<std::pair<std::string, std::vector<Found>>> lights;
   std::size_t scenes = 0;
   std::set<std::string> models;
@@ -204,7 +183,7 @@ int main(int argc, char** argv) {
     ++scenes;
   }
   std::cout
-      << "# Soft shadows against rays\n\n<!-- readme -->\n\nMade by `bench_soft` on " << renderer->info().renderer
+      << "# Soft shadows against rays\n\n<!-- readme -->\n\nMade by `bench_soft` on " << renderer.info().renderer
       << ", " << std::thread::hardware_concurrency() << " cores, 640 x 360, antialiasing none, " << scenes
       << " scenes, each as a whole in view, against " << samples
       << " rays a pixel. Of an rms there are the median of the scenes, "

@@ -4,19 +4,13 @@ import json
 import struct
 import unittest
 
-from command_line_test import BOX, OK, PROBLEM, USAGE, CommandLine, gnomon
-from shipped_server import EXR_MAGIC, Server, png_size
+from command_line_test import BOX, OK, PROBLEM, USAGE, AgainstServer, gnomon
+from shipped_server import EXR_MAGIC, png_size
 
 BAKE = ["--sun", "135,40", "--set", "shadow.technique=lightMap", "--set", "shadow.lightMap.size=128"]
 
 
-class Bake(CommandLine):
-    @classmethod
-    def setUpClass(cls):
-        cls.server = Server()
-        cls.addClassCleanup(cls.server.__exit__)
-        cls.url = "http://{}:{}".format(*cls.server.address)
-
+class Bake(AgainstServer):
     def test_a_bake_here_and_there(self):
         for ending in ("png", "exr", "glb"):
             files = []

@@ -9,7 +9,7 @@ import unittest
 import zipfile
 from pathlib import Path
 
-from shipped_server import BINARY, EXR_MAGIC, SCENES, TIMEOUT, Server, environment, png_size
+from shipped_server import BINARY, EXR_MAGIC, SCENES, TIMEOUT, Server, ServerTest, environment, png_size
 
 BOX = str(SCENES / "box_on_plane.glb")
 SMALL = ["--size", "64x48"]
@@ -154,9 +154,6 @@ class Problems(CommandLine):
     def test_specs_that_are_not(self):
         for text in (b"{", b'{"width": 64, "width": 64}', b"[" * 20000, b'{"wide": 1}'):
             self.refused(BOX, "--spec", "-", stdin=text, said=["gnomon: "])
-
-    def test_a_camera_that_the_scene_lacks(self):
-        self.refused(BOX, "--camera", "nobody", said=["--camera (/camera/node)"])
 
     def test_a_server_that_is_not(self):
         self.refused(BOX, "--server", "http://127.0.0.1:1", said=["http://127.0.0.1:1: There was no reply"])
@@ -324,13 +321,15 @@ class WithKeys(CommandLine):
         self.assert_ends(gnomon(*arguments[:-2], "--key-file", str(empty)), USAGE, "--server")
 
 
-class WithServer(CommandLine):
+class AgainstServer(ServerTest, CommandLine):
     @classmethod
     def setUpClass(cls):
-        cls.server = Server()
-        cls.addClassCleanup(cls.server.__exit__)
+        super().setUpClass()
         cls.url = "http://{}:{}".format(*cls.server.address)
+        cls.where = ["--server", cls.url]
 
+
+class WithServer(AgainstServer):
     def both(self, *arguments, scene=BOX):
         """The files that a render gives here, and there."""
         files = []
@@ -381,10 +380,6 @@ class WithServer(CommandLine):
         heads = [line for line in self.server.log_lines() if line.get("method") == "HEAD" and line.get("status") == 200]
         self.assertTrue(heads)
         self.assertLessEqual(len([line for line in uploads if line["status"] == 201]), 2)  # the GLB; the .gltf
-
-    def test_what_the_server_refuses_names_the_flag(self):
-        run = gnomon("render", BOX, "-o", str(self.output), "--camera", "nobody", "--server", self.url)
-        self.assert_ends(run, PROBLEM, "--camera (/camera/node)")
 
     def test_inspect_says_what_the_server_says(self):
         run = gnomon("inspect", BOX, "--json")

@@ -3,17 +3,10 @@
 import json
 import unittest
 
-from command_line_test import BOX, OK, PROBLEM, SMALL, USAGE, CommandLine, gnomon
-from shipped_server import Server
+from command_line_test import BOX, OK, PROBLEM, SMALL, USAGE, AgainstServer, gnomon
 
 
-class Evaluate(CommandLine):
-    @classmethod
-    def setUpClass(cls):
-        cls.server = Server()
-        cls.addClassCleanup(cls.server.__exit__)
-        cls.url = "http://{}:{}".format(*cls.server.address)
-
+class Evaluate(AgainstServer):
     def test_an_evaluation_here_and_there(self):
         variants = ["--variant", '{"shadow": {"filter": {"type": "hard"}}}', "--variant", '{"shadow": {"cascadeCount": 1}}']
         files = {kind: self.folder / f"report.{kind}" for kind in ("json", "csv", "svg")}

@@ -4,19 +4,14 @@ import json
 import unittest
 import zipfile
 
-from command_line_test import BOX, OK, PROBLEM, USAGE, CommandLine, gnomon
-from shipped_server import Server
+from command_line_test import BOX, OK, PROBLEM, USAGE, AgainstServer, gnomon
 
 SMALL = {"width": 64, "height": 48, "antialiasing": "none"}
 FRAMES = [{"camera": {"orbit": {"azimuthDegrees": each}}} for each in (10, 30, 50)]
 
 
-class Jobs(CommandLine):
-    @classmethod
-    def setUpClass(cls):
-        super().setUpClass()
-        cls.server = cls.enterClassContext(Server("--device", "cpu"))
-        cls.where = ("--server", "http://%s:%d" % cls.server.address)
+class Jobs(AgainstServer):
+    flags = ("--device", "cpu")
 
     def submit(self, request):
         run = gnomon("sequence", BOX, "--spec", "-", "--async", *self.where, stdin=json.dumps(request).encode())

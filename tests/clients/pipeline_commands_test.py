@@ -207,12 +207,6 @@ class Compare(CommandLine):
         two.write_bytes(two.read_bytes()[:300])
         self.assert_ends(gnomon("compare", str(two), str(other)), PROBLEM, "two.exr")
 
-    def test_sizes_that_differ_are_told(self):
-        self.render()
-        other = self.folder / "other.png"
-        self.assert_ends(gnomon("render", BOX, "-o", str(other), "--size", "32x48"), OK)
-        self.assert_ends(gnomon("compare", str(self.output), str(other)), PROBLEM, "64x48", "32x48")
-
 
 class Watch(CommandLine):
     def setUp(self):

@@ -16,7 +16,7 @@ import zipfile
 from pathlib import Path
 
 from command_line_test import BOX, OK, PROBLEM, SMALL, USAGE, CommandLine, gnomon
-from shipped_server import BINARY, TIMEOUT, Server, environment, png_size
+from shipped_server import BINARY, TIMEOUT, ServerTest, environment, png_size
 
 
 class Proxy(http.server.ThreadingHTTPServer):
@@ -75,11 +75,8 @@ class Passing(http.server.BaseHTTPRequestHandler):
     do_GET = do_HEAD = do_POST = do_DELETE = pass_on
 
 
-class WithProxy(CommandLine):
-    @classmethod
-    def setUpClass(cls):
-        cls.server = Server("--device", "cpu", "--workers", "1")
-        cls.addClassCleanup(cls.server.__exit__)
+class WithProxy(ServerTest, CommandLine):
+    flags = ("--device", "cpu", "--workers", "1")
 
     def setUp(self):
         super().setUp()
@@ -263,13 +260,14 @@ def make_certificate(folder, name, host):
     return str(certificate), both
 
 
-class OverTls(CommandLine):
+class OverTls(ServerTest, CommandLine):
+    flags = ("--device", "cpu", "--workers", "1")
+
     @classmethod
     def setUpClass(cls):
+        super().setUpClass()
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
-        cls.server = Server("--device", "cpu", "--workers", "1")
-        cls.addClassCleanup(cls.server.__exit__)
         cls.trusted, own = make_certificate(Path(folder.name), "own", "localhost")
         cls.other, _ = make_certificate(Path(folder.name), "other", "localhost")
         proxy = Proxy(cls.server.address, own)

@@ -2,6 +2,12 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
+#include <vector>
+
+#include "protocol/base/file_uri.h"
+#include "protocol/base/nearest_name.h"
+#include "protocol/json/json_codec.h"
+#include "protocol/json/query_codec.h"
 
 namespace gnomon {
 namespace {
@@ -82,6 +88,73 @@ TEST(Ascii, LowersAsciiOnly) {
 TEST(Ascii, QuotesShortAndPrintable) {
   EXPECT_EQ(asciiExcerpt("a\r\nb\xff"), "a??b?");
   EXPECT_EQ(asciiExcerpt(std::string(65, 'a')), std::string(64, 'a') + "...");
+}
+
+const std::vector<std::string> kNames{"width", "height", "camera"};
+
+TEST(NearestName, IsTheOneWithTheFewestEdits) {
+  EXPECT_EQ(nearestName("widht", kNames), "width");
+  EXPECT_EQ(nearestName("Camera", kNames), "camera");
+  EXPECT_EQ(nearestName("depth", kNames), "");
+  EXPECT_EQ(nearestName("camra", kNames, 0), "");
+}
+
+TEST(NearestName, EndsASentence) {
+  EXPECT_EQ(suggestion("widht", kNames), "; did you mean width?");
+  EXPECT_EQ(suggestion("lens", kNames), ".");
+}
+
+TEST(NearestName, IsToldOfFieldsAndViews) {
+  const auto detail = [](const Result<FrameSpec>& refused) { return refused.problems().front().detail; };
+  EXPECT_EQ(detail(decodeFrameSpec(R"({"widht": 3})")), "There is no field of this name; did you mean width?");
+  EXPECT_EQ(detail(decodeFrameSpec(R"({"shadow": {"filtr": {}}})")),
+            "There is no field of this name; did you mean filter?");
+  EXPECT_EQ(detail(decodeFrameSpec(R"({"views": ["dept"]})")),
+            "This is not one of the possible values; did you mean depth?");
+  EXPECT_EQ(detail(decodeFrameQuery({{"view", "shadows"}})),
+            "This is not one of the possible values; did you mean shadow?");
+  EXPECT_EQ(detail(decodeFrameQuery({{"lights[0].intensty", "3"}})),
+            "There is no field of this name; did you mean intensity?");
+  EXPECT_EQ(detail(decodeFrameSpec(R"({"xyz": 3})")), "There is no field of this name.");
+}
+
+std::string nameOf(std::string_view uri) {
+  const auto file = fileUri(uri);
+  return file ? file->name : "none";
+}
+
+TEST(FileUri, NamesAreOfPlainFolders) {
+  for (const char* uri :
+       {"a/b.png", "./a/b.png", "a//b.png", "a/c/../b.png", "a%2Fb.png", "a\\b.png", ".\\a%5cb.png"}) {
+    EXPECT_EQ(nameOf(uri), "a/b.png") << uri;
+    EXPECT_FALSE(fileUri(uri)->isOutside) << uri;
+    EXPECT_EQ(fileUri(uri)->hasBackslash, std::string_view(uri).find_first_of("\\5") != std::string_view::npos) << uri;
+  }
+  EXPECT_EQ(nameOf("a%20b.png"), "a b.png");
+}
+
+TEST(FileUri, WhatIsElsewhereIsToldApart) {
+  const std::pair<const char*, const char*> names[] = {{"../b.png", "_up/b.png"},
+                                                       {"a/../../b.png", "_up/b.png"},
+                                                       {"..\\..\\b.png", "_up/_up/b.png"},
+                                                       {"/a/b.png", "_root/a/b.png"},
+                                                       {"/../a/b.png", "_root/a/b.png"},
+                                                       {"//host/b.png", "_root/host/b.png"},
+                                                       {"file:///a/b.png", "_root/a/b.png"},
+                                                       {"file://localhost/a/b%20c.png", "_root/a/b c.png"}};
+  for (const auto& [uri, name] : names) {
+    EXPECT_EQ(nameOf(uri), name) << uri;
+    EXPECT_TRUE(fileUri(uri)->isOutside) << uri;
+  }
+  EXPECT_EQ(fileUri("file:///a/b.png")->path, "/a/b.png");
+  EXPECT_EQ(fileUri("..\\b.png")->path, "../b.png");
+}
+
+TEST(FileUri, OtherAddressesAreNone) {
+  for (const char* uri :
+       {"data:,x", "http://a/b.png", "c:\\a\\b.png", "", ".", "..", "/", "a/..", "a%zz", "a%00b", "a%0Ab"}) {
+    EXPECT_EQ(nameOf(uri), "none") << uri;
+  }
 }
 
 } // namespace

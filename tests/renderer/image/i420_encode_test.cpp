@@ -1,6 +1,7 @@
 #include "renderer/image/i420_encode.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 namespace gnomon {
 namespace {

@@ -1,6 +1,4 @@
 // What the encoders of pictures wrote, read back with OpenImageIO.
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <cmath>
 #include <cstdlib>
 #include <gtest/gtest.h>
@@ -10,6 +8,7 @@
 #include "renderer/image/png_encode.h"
 #include "renderer/image/tiff_encode.h"
 #include "renderer/image/webp_encode.h"
+#include "tests/renderer/image/oiio.h"
 
 namespace gnomon {
 namespace {
@@ -21,17 +20,11 @@ template <class Number>
 std::vector<Number> read(const Result<Bytes>& file, const char* format, OIIO::ImageSpec& spec) {
   EXPECT_TRUE(file) << (file ? "" : file.problems().front().detail);
   if (!file) return {};
-  Bytes bytes = *file;
-  OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-  const auto input = OIIO::ImageInput::create(format);
-  OIIO::ImageSpec asked;
-  asked.attribute("oiio:UnassociatedAlpha", 1);
-  if (!input || !input->set_ioproxy(&memory) || !input->open(format, spec, asked)) {
-    ADD_FAILURE() << format << " does not open: " << (input ? input->geterror() : OIIO::geterror());
-    return {};
-  }
+  OiioFile opened(format, *file);
+  spec = opened.spec;
+  if (!opened.input) return {};
   std::vector<Number> samples(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
-  EXPECT_TRUE(input->read_image(0, 0, 0, spec.nchannels, OIIO::BaseTypeFromC<Number>::value, samples.data()));
+  EXPECT_TRUE(opened.input->read_image(0, 0, 0, spec.nchannels, OIIO::BaseTypeFromC<Number>::value, samples.data()));
   return samples;
 }
 

@@ -1,11 +1,10 @@
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 #include <random>
 #include <zlib.h>
 
 #include "renderer/image/image_codec.h"
 #include "renderer/image/picture_decode.h"
+#include "tests/renderer/image/oiio.h"
 #include "tests/renderer/image/png_builder.h"
 #include "tests/renderer/image/rows_of.h"
 
@@ -96,15 +95,12 @@ class RandomPng {
 
 /// As libpng reads it.
 Bytes byLibpng(const Bytes& png, std::size_t width, std::size_t height) {
-  OIIO::Filesystem::IOMemReader memory(const_cast<std::uint8_t*>(png.data()), png.size());
-  const auto input = OIIO::ImageInput::create("png");
-  OIIO::ImageSpec spec, config;
-  config.attribute("oiio:UnassociatedAlpha", 1);
-  EXPECT_TRUE(input && input->set_ioproxy(&memory) && input->open("png", spec, config));
-  Bytes read(width * height * static_cast<std::size_t>(spec.nchannels));
-  EXPECT_TRUE(input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeUInt8, read.data())) << input->geterror();
+  OiioFile file("png", png);
+  if (!file.input) return {};
+  Bytes read(width * height * static_cast<std::size_t>(file.spec.nchannels));
+  EXPECT_TRUE(file.input->read_image(0, 0, 0, file.spec.nchannels, OIIO::TypeUInt8, read.data()));
   Bytes rgba;
-  const auto channels = static_cast<std::size_t>(spec.nchannels);
+  const auto channels = static_cast<std::size_t>(file.spec.nchannels);
   for (std::size_t i = 0; i < width * height; ++i) {
     const std::uint8_t* pixel = &read[i * channels];
     for (std::size_t c = 0; c < 3; ++c) rgba.push_back(pixel[channels < 3 ? 0 : c]);

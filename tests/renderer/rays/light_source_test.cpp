@@ -1,7 +1,6 @@
 #include "renderer/rays/light_source.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <map>
@@ -17,27 +16,6 @@ glm::dvec2 placeOf(std::uint32_t index, std::uint32_t count, std::uint64_t seed)
   SampleWays ways;
   waysTo({.across = {1, 0, 0}, .up = {0, 1, 0}}, {index, index + 1, count}, seed, {0, 0, 1}, ways);
   return ways.length[0] * glm::dvec2(ways.direction[0][0], ways.direction[1][0]);
-}
-
-TEST(LightSamples, FillTheDiscEvenlyForAnyCount) {
-  for (const std::uint32_t count : {16u, 100u, 256u, 1000u}) {
-    for (const std::uint64_t seed : {0ull, 0x123456789abcdef0ull, ~0ull}) {
-      std::array<int, 4> quadrants{};
-      int inner = 0; // within half the area
-      glm::dvec2 sum(0);
-      for (std::uint32_t i = 0; i < count; ++i) {
-        const glm::dvec2 p = placeOf(i, count, seed);
-        ASSERT_LE(glm::length(p), 1 + 1e-12);
-        ++quadrants[std::size_t((p.x > 0 ? 1 : 0) + (p.y > 0 ? 2 : 0))];
-        inner += glm::dot(p, p) < 0.5 ? 1 : 0;
-        sum += p;
-      }
-      const double slack = 3 + 0.03 * count;
-      EXPECT_NEAR(inner, 0.5 * count, slack);
-      for (const int quadrant : quadrants) EXPECT_NEAR(quadrant, 0.25 * count, slack);
-      EXPECT_LT(glm::length(sum / double(count)), 1.5 / std::sqrt(double(count)) / 2);
-    }
-  }
 }
 
 /// Shirley and Chiu's map with the library's sines.

@@ -60,49 +60,6 @@ TEST(ErrorMeasures, H1_AnEdgeThatHasMovedIsOffByAsMuch) {
   }
 }
 
-TEST(ErrorMeasures, H1_FartherThanTwoPixelsFromAnEdgeIsInterior) {
-  const ErrorMetrics errors = measured(halfLit(), litLeftOf(kWidth, kHeight, 15)); // columns 15 to 19 in false shadow
-  EXPECT_DOUBLE_EQ(errors.interior, 2 * kHeight / kAll) << "columns 15 and 16: the edge pixels are 19 and 20";
-  EXPECT_DOUBLE_EQ(errors.acne, errors.interior);
-  EXPECT_DOUBLE_EQ(errors.edge, 3 * kHeight / kAll);
-  EXPECT_EQ(errors.edgeDisplacement->median, 5.0);
-}
-
-TEST(ErrorMeasures, H1_SpecklesOnALitSurfaceAreAcne) {
-  std::vector<float> shown = litLeftOf(kWidth, kHeight, 20);
-  for (int y = 2; y < kHeight; y += 4) shown[place(5, y)] = 0.2f;
-  const ErrorMetrics errors = measured(halfLit(), shown);
-  EXPECT_DOUBLE_EQ(errors.acne, 6 / kAll);
-  EXPECT_DOUBLE_EQ(errors.acne, errors.misclassified);
-  EXPECT_EQ(errors.leak + errors.edge, 0.0);
-  EXPECT_NEAR(errors.meanAbsolute, 6 * 0.8 / kAll, 1e-9);
-  EXPECT_EQ(errors.edgeDisplacement->mean, 0.0) << "they are no part of an edge in the wrong place";
-  EXPECT_EQ(errors.edgeDisplacement->max, 15.0) << "a speckle's dark pixel is an edge of its own";
-}
-
-TEST(ErrorMeasures, H1_ADetachedContactIsALeak) {
-  Reference truth = halfLit();
-  // The caster stands on the shadow's edge: what hides the light is less than two pixels off there.
-  for (int y = 0; y < kHeight; ++y) {
-    truth.lights[0].blockerDistance[place(20, y)] = 0.5f;
-    truth.lights[0].blockerDistance[place(21, y)] = 1.5f;
-    truth.lights[0].blockerDistance[place(22, y)] = 2.5f;
-  }
-  const ErrorMetrics errors = measured(truth, litLeftOf(kWidth, kHeight, 23));
-  EXPECT_DOUBLE_EQ(errors.leak, 2 * kHeight / kAll);
-  EXPECT_DOUBLE_EQ(errors.edge, kHeight / kAll);
-  EXPECT_EQ(errors.interior, 0.0);
-}
-
-TEST(ErrorMeasures, H1_LightDeepInAShadowIsALeakToo) {
-  std::vector<float> shown = litLeftOf(kWidth, kHeight, 20);
-  shown[place(30, 10)] = 1;
-  const ErrorMetrics errors = measured(halfLit(), shown);
-  EXPECT_DOUBLE_EQ(errors.leak, 1 / kAll);
-  EXPECT_DOUBLE_EQ(errors.interior, 1 / kAll);
-  EXPECT_DOUBLE_EQ(errors.falseLit, 1 / kAll);
-}
-
 TEST(ErrorMeasures, H1_WithoutReceiversThereAreNoErrors) {
   Reference truth = halfLit();
   truth.lights[0].receiver.assign(truth.surface.size(), 0);

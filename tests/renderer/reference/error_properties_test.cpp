@@ -125,14 +125,6 @@ RC_GTEST_PROP(ErrorProperties, H1_MetricsAreTheirDefinitions, ()) {
   RC_ASSERT(std::isfinite(errors.edgeDisplacement->mean));
 }
 
-RC_GTEST_PROP(ErrorProperties, H1_SharesAddUp, ()) {
-  const RandomTruth random = randomTruth();
-  const ErrorMetrics errors = measureErrors(random.truth, std::span(&random.shown, 1));
-  RC_ASSERT(std::abs(errors.falseShadow + errors.falseLit - errors.misclassified) < 1e-12);
-  RC_ASSERT(std::abs(errors.acne + errors.leak + errors.edge - errors.misclassified) < 1e-12);
-  RC_ASSERT(errors.interior <= errors.acne + errors.leak + 1e-12);
-}
-
 RC_GTEST_PROP(ErrorProperties, H1_SwappingShadowAndTruthSwapsTheirErrors, ()) {
   const RandomTruth random = randomTruth();
   Reference swapped = random.truth;

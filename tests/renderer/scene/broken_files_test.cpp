@@ -10,7 +10,7 @@
 #include <random>
 
 #include "tests/renderer/scene/load.h"
-#include "tests/support/files.h"
+#include "tests/support/gathered_model.h"
 
 namespace gnomon {
 namespace {
@@ -50,14 +50,7 @@ std::vector<Model> models() {
   if (!manifest) return found;
   const json list = json::parse(manifest);
   for (const json& entry : list["models"]) {
-    const fs::path model = assetFolder() / entry["path"].get<std::string>();
-    SceneBundle bundle{testing::readFile(model), {}};
-    for (const json& name : entry["files"]) {
-      const fs::path file = assetFolder() / name.get<std::string>();
-      if (file == model) continue;
-      bundle.files[file.lexically_relative(model.parent_path()).generic_string()] = testing::readFile(file);
-    }
-    found.push_back({entry["path"].get<std::string>(), std::move(bundle)});
+    found.push_back({entry["path"].get<std::string>(), testing::gatheredBundle(assetFolder(), entry)});
   }
   return found;
 }

@@ -32,16 +32,6 @@ json& primitiveOf(testing::GlbBuilder& builder) {
   return builder.json["meshes"][0]["primitives"][0];
 }
 
-/// A PNG's header, and nothing after it.
-Bytes pngHeader(std::uint32_t width, std::uint32_t height) {
-  Bytes bytes{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n', 0, 0, 0, 13, 'I', 'H', 'D', 'R'};
-  for (const std::uint32_t side : {width, height}) {
-    for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::uint8_t>(side >> shift));
-  }
-  bytes.insert(bytes.end(), {8, 2, 0, 0, 0, 0, 0, 0, 0});
-  return bytes;
-}
-
 /// A square whose material uses images of these sizes.
 testing::GlbBuilder textured(const std::vector<std::pair<int, int>>& sizes) {
   testing::GlbBuilder builder = testing::plane();

@@ -1,6 +1,5 @@
 #include "server/access/access_check.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -11,9 +10,13 @@
 
 #include "protocol/access/signed_target.h"
 #include "protocol/base/bytes.h"
+#include "server/access/key_usage.h"
+#include "tests/server/http/asked.h"
 
 namespace gnomon {
 namespace {
+
+using std::chrono::milliseconds;
 
 std::string hashOf(std::string_view secret) {
   Sha256 hash;
@@ -49,15 +52,7 @@ HttpReply ask(const HttpService& service, const std::optional<std::string>& auth
   request.method = "GET";
   request.client = "10.0.0.1";
   if (authorization) request.headers.emplace_back("authorization", *authorization);
-  auto found = service(request);
-  if (auto* reply = std::get_if<HttpReply>(&found)) return *reply;
-  return std::get<RequestHandler>(found).answer(request, [] { return false; });
-}
-
-std::string header(const HttpReply& reply, std::string_view name) {
-  const auto found = std::find_if(reply.headers.begin(), reply.headers.end(),
-                                  [&](const auto& header) { return header.first == name; });
-  return found == reply.headers.end() ? "" : found->second;
+  return answerOf(service, request);
 }
 
 std::shared_ptr<KeyRing> twoKeys() {
@@ -160,10 +155,7 @@ HttpService signedService() {
 
 HttpReply follow(const std::string& target) {
   const auto head = parseRequestHead("GET " + target + " HTTP/1.1\r\nHost: x\r\n\r\n");
-  auto request = requestFromHead(*head);
-  auto found = signedService()(*request);
-  if (auto* reply = std::get_if<HttpReply>(&found)) return *reply;
-  return std::get<RequestHandler>(found).answer(*request, [] { return false; });
+  return answerOf(signedService(), *requestFromHead(*head));
 }
 
 constexpr std::int64_t kFarAway = 32'000'000'000;
@@ -212,6 +204,76 @@ TEST(KeyRing, ABrokenFileKeepsTheKeysOfTheOneBefore) {
   EXPECT_FALSE((*ring)->withSecret("first"));
   EXPECT_TRUE((*ring)->withSecret("second"));
   std::filesystem::remove_all(folder);
+}
+
+AccessKey limited(double requestsPerSecond, double burst, std::size_t concurrent = 0) {
+  AccessKey key;
+  key.name = "a";
+  key.requestsPerSecond = requestsPerSecond;
+  key.burst = burst;
+  key.concurrent = concurrent;
+  return key;
+}
+
+TEST(KeyUsage, ABurstAtOnceAndThenTheRate) {
+  KeyUsage usage;
+  const AccessKey key = limited(0.5, 3);
+  const auto start = Clock::now();
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(usage.admit(key, start).place);
+  const Admission refused = usage.admit(key, start);
+  EXPECT_FALSE(refused.place);
+  EXPECT_EQ(refused.retryAfterSeconds, 2);
+  EXPECT_EQ(usage.wait(key, start + milliseconds(500)), 2) << "1.5 seconds, rounded up";
+  EXPECT_FALSE(usage.admit(key, start + milliseconds(1'900)).place);
+  EXPECT_TRUE(usage.admit(key, start + milliseconds(2'000)).place) << "what Retry-After said";
+  EXPECT_FALSE(usage.admit(key, start + milliseconds(2'000)).place);
+}
+
+TEST(KeyUsage, WaitingSavesNoMoreThanABurst) {
+  KeyUsage usage;
+  const AccessKey key = limited(10, 2);
+  const auto later = Clock::now() + std::chrono::hours(1);
+  EXPECT_TRUE(usage.admit(key).place);
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(usage.admit(key, later).place);
+  EXPECT_FALSE(usage.admit(key, later).place);
+}
+
+TEST(KeyUsage, LookingTakesNothing) {
+  KeyUsage usage;
+  const AccessKey key = limited(1, 1, 1);
+  const auto now = Clock::now();
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(usage.wait(key, now), 0);
+  EXPECT_TRUE(usage.admit(key, now).place);
+  EXPECT_EQ(usage.wait(key, now), 1);
+}
+
+TEST(KeyUsage, APlaceIsFreeAgainOnceItIsGivenBack) {
+  KeyUsage usage;
+  const AccessKey key = limited(0, 0, 2);
+  Admission first = usage.admit(key);
+  const Admission second = usage.admit(key);
+  EXPECT_TRUE(first.place && second.place);
+  const Admission third = usage.admit(key);
+  EXPECT_FALSE(third.place);
+  EXPECT_EQ(third.retryAfterSeconds, 1);
+  first.place.reset();
+  EXPECT_TRUE(usage.admit(key).place);
+}
+
+TEST(KeyUsage, EachKeyHasItsOwn) {
+  KeyUsage usage;
+  AccessKey other = limited(0, 0, 1);
+  other.name = "b";
+  const Admission first = usage.admit(limited(0, 0, 1));
+  EXPECT_TRUE(first.place);
+  EXPECT_TRUE(usage.admit(other).place);
+}
+
+TEST(KeyUsage, WithoutBoundsEverythingMayGoOn) {
+  KeyUsage usage;
+  std::vector<Admission> held;
+  for (int i = 0; i < 1'000; ++i) held.push_back(usage.admit(limited(0, 0)));
+  for (const Admission& each : held) EXPECT_TRUE(each.place);
 }
 
 } // namespace

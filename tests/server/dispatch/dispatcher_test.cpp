@@ -19,6 +19,23 @@ using namespace std::chrono_literals;
 using testing::DispatcherTest;
 using testing::kStays;
 
+/// Tasks that hold a place each until `leave` is set.
+std::vector<std::thread> holders(std::size_t count, Dispatcher& dispatcher, const Task& task,
+                                 std::atomic<bool>& leave) {
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < count; ++i) {
+    threads.emplace_back([&dispatcher, &leave, task] { dispatcher.run(task, [&] { return leave.load(); }); });
+  }
+  return threads;
+}
+
+/// Holds all places of a lone worker.
+std::vector<std::thread> holdWorker(Dispatcher& dispatcher, const Task& task, std::atomic<bool>& leave) {
+  auto threads = holders(kPlaces[0], dispatcher, task, leave);
+  while (dispatcher.state().running < kPlaces[0]) std::this_thread::sleep_for(1ms);
+  return threads;
+}
+
 TEST_F(DispatcherTest, DrawsFrames) {
   const auto dispatcher = start(2);
   EXPECT_EQ(dispatcher->info().backend, "cpu");
@@ -176,10 +193,7 @@ TEST_F(DispatcherTest, AWorkerThatTakesTooMuchMemoryIsReplaced) {
 TEST_F(DispatcherTest, TheQueueIsBoundedAndSaysWhenToComeAgain) {
   const auto dispatcher = start(1, {.queueLimit = 1, .stopping = 200ms});
   std::atomic<bool> leave = false;
-  std::vector<std::thread> held;
-  for (std::size_t i = 0; i < kPlaces[0] + 1; ++i) {
-    held.emplace_back([&] { dispatcher->run(frame("fault-loop"), [&] { return leave.load(); }); });
-  }
+  std::vector<std::thread> held = holders(kPlaces[0] + 1, *dispatcher, frame("fault-loop"), leave);
   while (dispatcher->state().waiting == 0) std::this_thread::sleep_for(1ms);
   std::this_thread::sleep_for(1200ms);
   const TaskResult refused = dispatcher->run(frame(), kStays);
@@ -192,11 +206,7 @@ TEST_F(DispatcherTest, TheQueueIsBoundedAndSaysWhenToComeAgain) {
 TEST_F(DispatcherTest, WhoFillsTheQueueTakesNoPlaceOfOthers) {
   const auto dispatcher = start(1, {.queueLimit = 4, .stopping = 200ms});
   std::atomic<bool> leave = false;
-  std::vector<std::thread> threads;
-  for (std::size_t i = 0; i < kPlaces[0]; ++i) {
-    threads.emplace_back([&] { dispatcher->run(frame("fault-loop"), [&] { return leave.load(); }); });
-  }
-  while (dispatcher->state().running < kPlaces[0]) std::this_thread::sleep_for(1ms);
+  std::vector<std::thread> threads = holdWorker(*dispatcher, frame("fault-loop"), leave);
   const auto ask = [&](const std::string& client) {
     Task task = frame();
     task.client = client;
@@ -219,11 +229,7 @@ TEST_F(DispatcherTest, WhoFillsTheQueueTakesNoPlaceOfOthers) {
 TEST_F(DispatcherTest, ClientsTakeTurns) {
   const auto dispatcher = start(1, {.stopping = 200ms});
   std::atomic<bool> leave = false;
-  std::vector<std::thread> threads;
-  for (std::size_t i = 0; i < kPlaces[0]; ++i) {
-    threads.emplace_back([&] { dispatcher->run(frame("fault-loop"), [&] { return leave.load(); }); });
-  }
-  while (dispatcher->state().running < kPlaces[0]) std::this_thread::sleep_for(1ms);
+  std::vector<std::thread> threads = holdWorker(*dispatcher, frame("fault-loop"), leave);
   std::atomic<int> greedyDone = 0, greedyBefore = -1;
   for (int i = 0; i < 20; ++i) {
     threads.emplace_back([&] {

@@ -49,13 +49,22 @@ inline HttpService echoService() {
   };
 }
 
+struct SocketPair {
+  SocketPair() {
+    int fds[2];
+    EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds), 0);
+    client = FileDescriptor(fds[0]);
+    server = FileDescriptor(fds[1]);
+  }
+  FileDescriptor client, server;
+};
+
 class ConnectionTest : public ::testing::Test {
  protected:
   ConnectionTest() : context_{echoService(), {}, ByteBudget(1 << 20), replyBytes_, {}} {
-    int fds[2];
-    EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds), 0);
-    client_ = FileDescriptor(fds[0]);
-    server_ = FileDescriptor(fds[1]);
+    SocketPair pair;
+    client_ = std::move(pair.client);
+    server_ = std::move(pair.server);
     context_.limits.linger = 50ms;
   }
 
@@ -64,6 +73,17 @@ class ConnectionTest : public ::testing::Test {
     auto pending = std::make_unique<PendingConnections>(context_, 2, 2);
     pending->adopt({std::move(server_), {"client", "client"}});
     return pending;
+  }
+
+  /// `count` more connections of one client, its ends of them.
+  static std::vector<FileDescriptor> connect(PendingConnections& pending, int count, const std::string& client) {
+    std::vector<FileDescriptor> clients;
+    for (int i = 0; i < count; ++i) {
+      SocketPair pair;
+      clients.push_back(std::move(pair.client));
+      pending.adopt({std::move(pair.server), {client, client}});
+    }
+    return clients;
   }
 
   /// Everything that comes back when the client sends this and then only listens.

@@ -187,13 +187,10 @@ TEST_F(ConnectionTest, RepliesThatNobodyTakesLeaveRoomForNoOther) {
     return std::variant<RequestHandler, HttpReply>(handler);
   };
   const auto pending = enter();
-  int fds[2];
-  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds), 0);
-  const FileDescriptor taker(fds[0]);
-  ASSERT_TRUE(sendAll(taker.get(), "GET / HTTP/1.1\r\nHost: x\r\n\r\n", Pace{}));
-  pending->adopt({FileDescriptor(fds[1]), {"other", "other"}});
+  const std::vector<FileDescriptor> taker = connect(*pending, 1, "other");
+  ASSERT_TRUE(sendAll(taker[0].get(), "GET / HTTP/1.1\r\nHost: x\r\n\r\n", Pace{}));
   char byte = 0;
-  ASSERT_EQ(::recv(taker.get(), &byte, 1, 0), 1);
+  ASSERT_EQ(::recv(taker[0].get(), &byte, 1, 0), 1);
   ASSERT_TRUE(sendAll(client_.get(), "GET / HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n", Pace{}));
   const std::string received = readAll();
   EXPECT_TRUE(received.starts_with("HTTP/1.1 503 "));

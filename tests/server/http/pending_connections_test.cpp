@@ -18,15 +18,11 @@ namespace {
 
 TEST_F(ConnectionTest, IdleConnectionsHoldNoThread) {
   const auto pending = enter(); // of two threads
-  std::vector<FileDescriptor> idle;
-  for (int i = 0; i < 10; ++i) {
-    int fds[2];
-    ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds), 0);
-    idle.emplace_back(fds[0]);
-    pending->adopt({FileDescriptor(fds[1]), {"idle", "idle"}});
-    ASSERT_TRUE(sendAll(fds[0], "GET / HTTP/1.1\r\nHost: x\r\n\r\n", Pace{}));
+  const std::vector<FileDescriptor> clients = connect(*pending, 10, "idle");
+  for (const FileDescriptor& idle : clients) {
+    ASSERT_TRUE(sendAll(idle.get(), "GET / HTTP/1.1\r\nHost: x\r\n\r\n", Pace{}));
     char bytes[4096];
-    ASSERT_GT(::recv(fds[0], bytes, sizeof bytes, 0), 0);
+    ASSERT_GT(::recv(idle.get(), bytes, sizeof bytes, 0), 0);
   }
   ASSERT_TRUE(sendAll(client_.get(), "GET / HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n", Pace{}));
   EXPECT_TRUE(readAll().starts_with("HTTP/1.1 200 OK"));
@@ -36,13 +32,7 @@ TEST_F(ConnectionTest, WhoWaitsMostGivesRoom) {
   context_.limits.maxWaiting = 4;
   const auto pending = enter();
   ASSERT_TRUE(sendAll(client_.get(), "GET / HTTP/1.1\r\nHos", Pace{}));
-  std::vector<FileDescriptor> many;
-  for (int i = 0; i < 40; ++i) {
-    int fds[2];
-    ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds), 0);
-    many.emplace_back(fds[0]);
-    pending->adopt({FileDescriptor(fds[1]), {"many", "many"}});
-  }
+  const std::vector<FileDescriptor> many = connect(*pending, 40, "many");
   ASSERT_TRUE(sendAll(client_.get(), "t: x\r\nConnection: close\r\n\r\n", Pace{}));
   EXPECT_TRUE(readAll().starts_with("HTTP/1.1 200 OK"));
   char byte = 0;
@@ -53,13 +43,7 @@ TEST_F(ConnectionTest, AWholeHeadIsNotDroppedForRoom) {
   context_.limits.maxWaiting = 2;
   ASSERT_TRUE(sendAll(client_.get(), "GET / HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n", Pace{}));
   const auto pending = enter();
-  std::vector<FileDescriptor> many;
-  for (int i = 0; i < 40; ++i) {
-    int fds[2];
-    ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds), 0);
-    many.emplace_back(fds[0]);
-    pending->adopt({FileDescriptor(fds[1]), {"client", "client"}});
-  }
+  const std::vector<FileDescriptor> many = connect(*pending, 40, "client");
   EXPECT_TRUE(readAll().starts_with("HTTP/1.1 200 OK"));
 }
 
@@ -79,11 +63,8 @@ class FullServerTest : public ConnectionTest {
       };
       return std::variant<RequestHandler, HttpReply>(handler);
     };
-    int fds[2];
-    EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds), 0);
-    holder_ = FileDescriptor(fds[0]);
     pending_.emplace(context_, 2, 1);
-    pending_->adopt({FileDescriptor(fds[1]), {"holder", "holder"}});
+    holder_ = std::move(connect(*pending_, 1, "holder").front());
     EXPECT_TRUE(sendAll(holder_.get(), "GET /hold HTTP/1.1\r\nHost: x\r\n\r\n", Pace{}));
     held_.get_future().wait();
   }
@@ -118,11 +99,10 @@ TEST_F(FullServerTest, WhoAsksMostIsRefusedWhereAllAsk) {
   context_.limits.threadWait = std::chrono::seconds(30);
   std::vector<FileDescriptor> many;
   for (int i = 0; i < 40; ++i) {
-    int fds[2];
-    ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds), 0);
-    many.emplace_back(fds[0]);
-    ASSERT_TRUE(sendAll(fds[0], "GET /a HTTP/1.1\r\nHost: x\r\n\r\n", Pace{}));
-    pending_->admit({FileDescriptor(fds[1]), {"holder", "holder"}});
+    SocketPair pair;
+    ASSERT_TRUE(sendAll(pair.client.get(), "GET /a HTTP/1.1\r\nHost: x\r\n\r\n", Pace{}));
+    pending_->admit({std::move(pair.server), {"holder", "holder"}});
+    many.push_back(std::move(pair.client));
   }
   EXPECT_TRUE(ask("GET /a HTTP/1.1\r\nHost: x\r\n\r\n", "other").starts_with("HTTP/1.1 200 OK"));
   std::array<char, 12> status{};
@@ -140,6 +120,66 @@ TEST_F(FullServerTest, AReplyToABrokenHeadHasAnId) {
   EXPECT_TRUE(received.starts_with("HTTP/1.1 400 "));
   EXPECT_FALSE(has(received, "X-Request-ID: \r\n"));
   EXPECT_TRUE(has(received, "\"instance\""));
+}
+
+/// A handler that waits until its client has left, at most two seconds; tells whether it did.
+class LeavingTest : public ConnectionTest {
+ protected:
+  LeavingTest() {
+    context_.service = [this](const HttpRequest&) {
+      RequestHandler handler;
+      handler.answer = [this](const HttpRequest&, const std::function<bool()>& clientGone) {
+        begun_.set_value();
+        const auto end = Clock::now() + 2s;
+        while (!(left_ = clientGone()) && !enough_ && Clock::now() < end) {
+          std::this_thread::sleep_for(5ms);
+        }
+        HttpReply reply;
+        reply.contentType = "text/plain";
+        reply.body = "the frame";
+        return reply;
+      };
+      return std::variant<RequestHandler, HttpReply>(handler);
+    };
+  }
+
+  std::unique_ptr<PendingConnections> begin(const std::string& request) {
+    auto pending = enter();
+    EXPECT_TRUE(sendAll(client_.get(), request, Pace{}));
+    begun_.get_future().wait();
+    return pending;
+  }
+
+  std::promise<void> begun_;
+  std::atomic<bool> left_ = false, enough_ = false;
+};
+
+TEST_F(LeavingTest, BytesThatWereSentAheadHideNothing) {
+  const auto pending = begin("GET / HTTP/1.1\r\nHost: x\r\n\r\nGET /next");
+  const auto start = Clock::now();
+  client_.reset();
+  pending->finish();
+  EXPECT_TRUE(left_);
+  EXPECT_LT(Clock::now() - start, 1s);
+}
+
+TEST_F(LeavingTest, AClientThatSendsNoMoreStillGetsItsReply) {
+  const auto pending = begin("GET / HTTP/1.1\r\nHost: x\r\n\r\n");
+  ::shutdown(client_.get(), SHUT_WR);
+  std::this_thread::sleep_for(50ms);
+  EXPECT_FALSE(left_);
+  enough_ = true;
+  const std::string received = readAll();
+  EXPECT_TRUE(received.starts_with("HTTP/1.1 100 Continue\r\n\r\nHTTP/1.1 200 OK\r\n")) << received;
+  EXPECT_TRUE(received.ends_with("the frame"));
+}
+
+TEST_F(LeavingTest, AnOldClientIsNotSentWhatItDoesNotKnow) {
+  const auto pending = begin("GET / HTTP/1.0\r\n\r\n");
+  ::shutdown(client_.get(), SHUT_WR);
+  std::this_thread::sleep_for(50ms);
+  enough_ = true;
+  EXPECT_TRUE(readAll().starts_with("HTTP/1.1 200 OK\r\n"));
 }
 
 } // namespace

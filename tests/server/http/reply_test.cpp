@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <string>
+
+#include "server/http/negotiation.h"
 
 namespace gnomon {
 namespace {
@@ -78,6 +81,106 @@ TEST(ReplyText, KeepsAPolicyThatTheReplyBrings) {
   reply.headers.emplace_back("Content-Security-Policy", "script-src 'self'");
   const std::string head = replyHead(reply, "id", true);
   EXPECT_EQ(head.find("default-src 'none'"), std::string::npos);
+}
+
+/// "image/png", or "multipart/mixed of exr"; "none".
+std::string chosen(std::optional<std::string_view> accept, ImageFormat format = ImageFormat::png) {
+  const auto form = negotiate(accept, format);
+  if (!form) {
+    return "none";
+  }
+  const std::string type(mediaTypeOf(*form));
+  return form->form == ReplyForm::image ? type : type + " of " + std::string(spell(form->format));
+}
+
+TEST(Negotiation, FollowsTheSpecWhereAcceptLeavesItOpen) {
+  for (const std::optional<std::string_view> accept :
+       {std::optional<std::string_view>(), std::optional<std::string_view>(""), std::optional<std::string_view>("*/*"),
+        std::optional<std::string_view>("image/*"), std::optional<std::string_view>("image/png, image/x-exr"),
+        std::optional<std::string_view>("text/html, image/avif;q=0.9, */*;q=0.8")}) {
+    EXPECT_EQ(chosen(accept, ImageFormat::png), "image/png") << accept.value_or("absent");
+    EXPECT_EQ(chosen(accept, ImageFormat::exr), "image/x-exr") << accept.value_or("absent");
+  }
+}
+
+TEST(Negotiation, AnImageTypeDecidesTheFormat) {
+  EXPECT_EQ(chosen("image/x-exr", ImageFormat::png), "image/x-exr");
+  EXPECT_EQ(chosen("image/png", ImageFormat::exr), "image/png");
+  EXPECT_EQ(chosen("IMAGE/PNG", ImageFormat::exr), "image/png");
+}
+
+TEST(Negotiation, EveryFormatHasItsType) {
+  for (const FormatTraits& traits : kFormatTraits) {
+    EXPECT_EQ(chosen(traits.mediaType, ImageFormat::png), traits.mediaType);
+    EXPECT_EQ(chosen(traits.mediaType, ImageFormat::tiff), traits.mediaType);
+    EXPECT_EQ(chosen("*/*", traits.format), traits.mediaType);
+    EXPECT_EQ(chosen(std::nullopt, traits.format), traits.mediaType);
+    EXPECT_EQ(chosen("multipart/mixed", traits.format), "multipart/mixed of " + std::string(spell(traits.format)));
+  }
+  EXPECT_EQ(kFrameTypes.size(), kFormatTraits.size() + 2);
+}
+
+/// What they send for a picture of a page, and Chrome and Firefox for a page.
+TEST(Negotiation, BrowsersGetWhatTheSpecSays) {
+  for (const char* accept :
+       {"image/avif,image/webp,image/apng,image/svg+xml,image/*,*/*;q=0.8",
+        "image/avif,image/webp,image/png,image/svg+xml,image/*;q=0.8,*/*;q=0.5", "image/avif,image/webp,*/*",
+        "image/webp,image/avif,image/jxl,image/heic,image/heic-sequence,video/*;q=0.8,image/png,image/svg+xml,"
+        "image/*;q=0.8,*/*;q=0.5",
+        "text/html,application/xhtml+xml,application/xml;q=0.9,image/avif,image/webp,image/apng,*/*;q=0.8"}) {
+    for (const FormatTraits& traits : kFormatTraits)
+      EXPECT_EQ(chosen(accept, traits.format), traits.mediaType) << accept;
+  }
+}
+
+TEST(Negotiation, APreviewIsChosenWhereNothingElseIsTaken) {
+  EXPECT_EQ(chosen("image/webp", ImageFormat::png), "image/webp");
+  EXPECT_EQ(chosen("image/webp, image/jpeg;q=0.5", ImageFormat::png), "image/webp");
+  EXPECT_EQ(chosen("image/jpeg, image/webp", ImageFormat::png), "image/jpeg");
+  EXPECT_EQ(chosen("image/jpeg, image/webp", ImageFormat::webp), "image/webp");
+  EXPECT_EQ(chosen("image/webp, image/png;q=0.1", ImageFormat::png), "image/png") << "as browsers might";
+  EXPECT_EQ(chosen("image/png, application/json;q=0.5, */*;q=0.1", ImageFormat::exr), "image/x-exr");
+}
+
+TEST(Negotiation, ArraysAreChosenOnlyWhereTheyAreAskedFor) {
+  EXPECT_EQ(chosen("application/x-npy, */*;q=0.1", ImageFormat::png), "application/x-npy");
+  EXPECT_EQ(chosen("application/*", ImageFormat::png), "application/json of png");
+  EXPECT_EQ(chosen("application/*", ImageFormat::npz), "application/zip");
+}
+
+TEST(Negotiation, FormsWithAReportKeepTheSpecsFormat) {
+  EXPECT_EQ(chosen("multipart/mixed", ImageFormat::exr), "multipart/mixed of exr");
+  EXPECT_EQ(chosen("application/json", ImageFormat::exr), "application/json of exr");
+  EXPECT_EQ(chosen("application/json"), "application/json of png");
+}
+
+TEST(Negotiation, WeighsQualities) {
+  EXPECT_EQ(chosen("image/png;q=0.5, application/json"), "application/json of png");
+  EXPECT_EQ(chosen("image/png;q=0.5, application/json;q=0.4"), "image/png");
+  EXPECT_EQ(chosen("image/x-exr, */*;q=0.1"), "image/x-exr");
+  EXPECT_EQ(chosen("*/*, image/png;q=0"), "image/x-exr");
+  EXPECT_EQ(chosen("image/*;q=0, */*"), "multipart/mixed of png");
+}
+
+TEST(Negotiation, TheTypeItselfBeatsAGroupOfTheSameQuality) {
+  EXPECT_EQ(chosen("application/json, */*"), "application/json of png");
+}
+
+TEST(Negotiation, GivesUpWhereNothingFits) {
+  for (const char* accept :
+       {"text/html", "image/png;q=0", "image/avif, image/gif", "*/*;q=0", "image/png;q=x", ",;,"}) {
+    EXPECT_EQ(chosen(accept), "none") << accept;
+  }
+}
+
+TEST(Etag, MatchesListsWeaklyAndStars) {
+  EXPECT_TRUE(etagMatches("\"a\"", "\"a\""));
+  EXPECT_TRUE(etagMatches("\"x\", W/\"a\" ,\"y\"", "\"a\""));
+  EXPECT_TRUE(etagMatches("\"a\"", "W/\"a\""));
+  EXPECT_TRUE(etagMatches(" * ", "\"a\""));
+  EXPECT_FALSE(etagMatches("", "\"a\""));
+  EXPECT_FALSE(etagMatches("a", "\"a\""));
+  EXPECT_FALSE(etagMatches("\"b\", \"c\"", "\"a\""));
 }
 
 } // namespace

@@ -52,10 +52,6 @@ TEST(RequestHead, PassesOverOneEmptyLine) {
   EXPECT_FALSE(parsed("\r\n\r\nGET / HTTP/1.1\r\nHost: x\r\n"));
 }
 
-TEST(RequestHead, InvitesNoBodyOfAnOldClient) {
-  EXPECT_FALSE(parsed("POST / HTTP/1.0\r\nExpect: 100-continue\r\n")->expectsContinue);
-}
-
 class RefusedHead : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(RefusedHead, IsMalformed) {

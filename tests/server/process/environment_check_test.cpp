@@ -1,9 +1,19 @@
 #include "server/process/environment_check.h"
 
+#include <CLI/CLI.hpp>
+#include <array>
+#include <csignal>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <string>
+#include <thread>
+#include <unistd.h>
 
-#include "protocol/base/nearest_name.h"
+#include "server/process/serve_flags.h"
+#include "server/process/serve_option_rows.h"
+#include "server/process/signals.h"
+#include "tests/server/system/pipe.h"
+#include "tests/support/page_table.h"
 
 namespace gnomon {
 namespace {
@@ -62,11 +72,84 @@ TEST(EnvironmentCheck, WhatOnlyLooksLikeAServiceIsRefused) {
   }
 }
 
-TEST(NearestName, IsTheOneWithTheFewestChangesIfThereAreFew) {
-  EXPECT_EQ(nearestName("worker", std::vector<std::string>{"port", "workers", "worker-program"}), "workers");
-  EXPECT_EQ(nearestName("bindd", std::vector<std::string>{"bind", "grace"}), "bind");
-  EXPECT_EQ(nearestName("velocity", std::vector<std::string>{"bind", "grace"}), "");
-  EXPECT_EQ(nearestName(std::string(100'000, 'a'), std::vector<std::string>{"bind"}), "");
+std::string sizeText(std::uint64_t bytes) {
+  if (bytes == 0) return "0";
+  return bytes % (1u << 30) == 0 ? std::to_string(bytes >> 30) + " GB" : std::to_string(bytes >> 20) + " MB";
+}
+
+std::string defaultOf(const CLI::Option& option, const OptionRow& row) {
+  if (std::holds_alternative<bool ServeOptions::*>(row.member)) return "off";
+  const std::string text = option.get_default_str();
+  if (text.empty()) return "none";
+  if (row.value.name == kBytes) return sizeText(std::stoull(text));
+  if (row.value.name == kSeconds) return text + " s";
+  return "`" + text + "`";
+}
+
+std::string optionTable() {
+  CLI::App command;
+  ServeOptions options;
+  addServeFlags(command, options);
+  std::string table = "| flag | variable | default | what it is, and what more of it costs |\n|---|---|---|---|\n";
+  for (const OptionGroup& group : kOptionGroups) {
+    for (const OptionRow& row : group.rows) {
+      const std::string flag = "--" + std::string(row.name);
+      const CLI::Option& option = *command.get_option(flag);
+      table += "| `" + flag + "` | `" + option.get_envname() + "` | " + defaultOf(option, row) + " | ";
+      table += std::string(row.says) + " |\n";
+    }
+  }
+  return table;
+}
+
+TEST(Readme, TheTableOfServerOptionsIsThatOfTheRows) {
+  testing::expectTable(GNOMON_OPERATIONS, "options", optionTable());
+}
+
+constexpr Clock::time_point kNow{};
+
+/// On a thread of its own, since signals stay blocked for the thread that makes a Signals.
+template <typename Test>
+void onThread(Test test) {
+  std::thread(test).join();
+}
+
+TEST(Signals, APipeThatIsClosedIsToldOnce) {
+  onThread([] {
+    Pipe pipe;
+    Signals signals(nullptr, std::move(pipe.reading));
+    const StopSignal done;
+    EXPECT_EQ(signals.wait(done, kNow), Signals::Event::timeout);
+    pipe.writing.reset();
+    EXPECT_EQ(signals.wait(done, Clock::time_point::max()), Signals::Event::abandoned);
+    EXPECT_EQ(signals.wait(done, kNow), Signals::Event::timeout);
+  });
+}
+
+TEST(Signals, WhatIsWrittenIntoThePipeIsDropped) {
+  onThread([] {
+    Pipe pipe;
+    Signals signals(nullptr, std::move(pipe.reading));
+    const StopSignal done;
+    const std::array<char, 10'000> text{};
+    ASSERT_EQ(::write(pipe.writing.get(), text.data(), text.size()), static_cast<ssize_t>(text.size()));
+    EXPECT_EQ(signals.wait(done, Clock::now() + std::chrono::milliseconds(50)), Signals::Event::timeout);
+    pipe.writing.reset();
+    EXPECT_EQ(signals.wait(done, Clock::time_point::max()), Signals::Event::abandoned);
+  });
+}
+
+TEST(Signals, ASignalIsToldWithOrWithoutAPipe) {
+  for (const bool hasPipe : {false, true}) {
+    onThread([hasPipe] {
+      Pipe pipe;
+      Signals signals(nullptr, hasPipe ? std::move(pipe.reading) : FileDescriptor());
+      const StopSignal done;
+      ::pthread_kill(::pthread_self(), SIGTERM);
+      EXPECT_EQ(signals.wait(done, Clock::time_point::max()), Signals::Event::signal);
+      EXPECT_EQ(signals.wait(done, kNow), Signals::Event::timeout);
+    });
+  }
 }
 
 } // namespace

@@ -1,6 +1,10 @@
 #include "server/process/memory_plan.h"
 
 #include <gtest/gtest.h>
+#include <string>
+
+#include "server/process/admin_address.h"
+#include "server/process/descriptor_plan.h"
 
 namespace gnomon {
 namespace {
@@ -44,6 +48,45 @@ TEST(MemoryPlan, WorkersFollowCoresAndMemory) {
   EXPECT_EQ(usualWorkers(16, 16 * kGiB), 4u);
   EXPECT_EQ(usualWorkers(64, kGiB), 2u);
   EXPECT_EQ(usualWorkers(64, kGiB / 4), 1u);
+}
+
+constexpr DescriptorUse kUse{.httpThreads = 128, .workers = 2, .jobFrames = 2};
+
+TEST(DescriptorPlan, WhatIsAtWorkAndWhatWaitsNeverNeedMoreThanThereAre) {
+  for (const std::size_t descriptors : {900u, 1'024u, 4'096u, 1'048'576u}) {
+    for (const bool inMemory : {false, true}) {
+      DescriptorUse use = kUse;
+      use.keepsScenesInMemory = inMemory;
+      const auto plan = planDescriptors(descriptors, use);
+      ASSERT_TRUE(plan) << descriptors;
+      EXPECT_LT(plan->waitingConnections + plan->scenesInMemory + plan->jobs + 128 * 5 + kAdminThreads + kAdminWaiting,
+                descriptors);
+      EXPECT_GE(plan->waitingConnections, 32u);
+      EXPECT_GE(plan->jobs, 16u);
+      EXPECT_EQ(plan->scenesInMemory > 0, inMemory);
+    }
+  }
+  EXPECT_EQ(planDescriptors(1'048'576, kUse)->waitingConnections, 2'048u);
+}
+
+TEST(DescriptorPlan, TooFewAreAProblemThatSaysHowManyItTakes) {
+  const auto plan = planDescriptors(256, kUse);
+  ASSERT_FALSE(plan);
+  EXPECT_GE(std::stoul(plan.problems().front().limit), 128u * 5);
+  EXPECT_EQ(plan.problems().front().actual, "256");
+  EXPECT_TRUE(planDescriptors(256, {.httpThreads = 8, .workers = 2, .jobFrames = 2}));
+}
+
+TEST(DescriptorPlan, FramesOfJobsHaveTheirFiles) {
+  DescriptorUse use = kUse;
+  use.jobFrames = 512; // each has at least a request and a reply
+  const auto refused = planDescriptors(1'024, use);
+  ASSERT_FALSE(refused);
+  EXPECT_GE(std::stoul(refused.problems().front().limit), 128u * 5 + 512u * 2);
+  const auto plan = planDescriptors(4'096, use);
+  ASSERT_TRUE(plan);
+  EXPECT_LT(plan->waitingConnections, planDescriptors(4'096, kUse)->waitingConnections);
+  EXPECT_LE(plan->waitingConnections + plan->jobs + 128 * 5 + 512 * 2, 4'096u);
 }
 
 } // namespace

@@ -1,10 +1,17 @@
 #include "server/redis/reply.h"
 
+#include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "server/redis/address.h"
+#include "server/redis/backoff.h"
+
 namespace gnomon::redis {
 namespace {
+
+using std::chrono::milliseconds;
 
 std::string wire(const Reply& reply) {
   const std::string size = std::to_string(reply.text.size());
@@ -122,6 +129,85 @@ TEST(RedisReply, AllocatesNothingForWhatIsOnlyAnnounced) {
 TEST(RedisReply, CommandsAreBytesOfAnyKind) {
   EXPECT_EQ(wireText({"SET", std::string("k\0\r\n", 4), ""}),
             std::string("*3\r\n$3\r\nSET\r\n$4\r\nk\0\r\n\r\n$0\r\n\r\n", 29));
+}
+
+TEST(RedisScript, IsNamedByTheDigestOfItsText) {
+  EXPECT_EQ(Script("abc").sha1(), "a9993e364706816aba3e25717850c26c9cd0d89d"); // FIPS 180-2, A.1
+  EXPECT_EQ(Script("").sha1(), "da39a3ee5e6b4b0d3255bfef95601890afd80709");
+}
+
+TEST(RedisAddress, ReadsEveryPart) {
+  const auto address = parseAddress("rediss://some%40one:p%3A%2F%40ss@cache.example:6400/3");
+  ASSERT_TRUE(address);
+  EXPECT_EQ(address->user, "some@one");
+  EXPECT_EQ(address->password, "p:/@ss");
+  EXPECT_EQ(address->host, "cache.example");
+  EXPECT_EQ(address->port, 6400);
+  EXPECT_EQ(address->database, 3);
+  EXPECT_TRUE(address->isEncrypted);
+}
+
+TEST(RedisAddress, KnowsWhatIsLeftOut) {
+  const auto address = parseAddress("redis://host");
+  ASSERT_TRUE(address);
+  EXPECT_EQ(address->port, 6379);
+  EXPECT_EQ(address->database, 0);
+  EXPECT_TRUE(address->user.empty());
+  EXPECT_FALSE(address->isEncrypted);
+  EXPECT_EQ(parseAddress("redis://:secret@host/")->password, "secret");
+  EXPECT_EQ(parseAddress("redis://secret@host")->password, "secret");
+  EXPECT_EQ(parseAddress("redis://[::1]:7000")->host, "::1");
+  EXPECT_EQ(parseAddress("redis://[::1]")->port, 6379);
+}
+
+TEST(RedisAddress, RefusesWhatItCannotRead) {
+  for (const char* text :
+       {"", "redis", "redis:", "redis:/host", "http://host", "redis://", "redis://:6379", "redis://host:0",
+        "redis://host:65536", "redis://host:x", "redis://host/x", "redis://host/-1", "redis://host/1/2",
+        "redis://ho st", "redis://::1", "redis://[::1", "redis://[host]", "redis://[::1]x", "redis://%zz@host"}) {
+    EXPECT_FALSE(parseAddress(text)) << text;
+  }
+}
+
+TEST(RedisAddress, IsShownWithoutItsPassword) {
+  const auto address = parseAddress("redis://user:secret@[::1]:7000/2");
+  ASSERT_TRUE(address);
+  EXPECT_EQ(shownText(*address), "redis://[::1]:7000/2");
+  const auto refused = parseAddress("redis://user:secret@host:99999");
+  ASSERT_FALSE(refused);
+  const Problem& problem = refused.problems().front();
+  EXPECT_EQ((problem.detail + problem.actual + problem.limit).find("secret"), std::string::npos);
+}
+
+RC_GTEST_PROP(RedisAddress, AnyTextIsReadOrRefused, (const std::string& text)) {
+  const auto read = parseAddress("redis://" + text);
+  if (read) RC_ASSERT(parseAddress(shownText(*read)));
+}
+
+TEST(RedisAddress, TakesItsPasswordFromAFile) {
+  const auto file = std::filesystem::temp_directory_path() / "gnomon-redis-password";
+  std::ofstream(file) << "secret word\nsecond line";
+  EXPECT_EQ(*passwordFrom(file), "secret word");
+  std::ofstream(file, std::ios::trunc) << "\n";
+  EXPECT_FALSE(passwordFrom(file));
+  std::ofstream(file, std::ios::trunc) << std::string(4'097, 'x');
+  EXPECT_FALSE(passwordFrom(file));
+  std::filesystem::remove(file);
+  EXPECT_FALSE(passwordFrom(file));
+}
+
+TEST(Backoff, DoublesUpToItsLongest) {
+  EXPECT_EQ(backoffDelay(1, 1), milliseconds(50));
+  EXPECT_EQ(backoffDelay(2, 1), milliseconds(100));
+  EXPECT_EQ(backoffDelay(7, 1), milliseconds(3'200));
+  EXPECT_EQ(backoffDelay(8, 1), milliseconds(5'000));
+  EXPECT_EQ(backoffDelay(1'000'000, 1), milliseconds(5'000));
+}
+
+TEST(Backoff, IsBetweenHalfAndAllByChance) {
+  EXPECT_EQ(backoffDelay(3, 0), milliseconds(100));
+  EXPECT_EQ(backoffDelay(3, 0.5), milliseconds(150));
+  EXPECT_EQ(backoffDelay(3, 1), milliseconds(200));
 }
 
 } // namespace

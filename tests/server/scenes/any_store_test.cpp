@@ -89,6 +89,9 @@ TEST_P(AnyStore, KeepsBundlesAndSummaries) {
   const auto bundle = store->bundle(first.id);
   ASSERT_TRUE(bundle);
   EXPECT_EQ(readFile(*bundle->file, 100), readFile(*first.file, 100));
+  if (GetParam() != Kind::redis) {
+    EXPECT_EQ(bundle->isStored, isShared());
+  }
   EXPECT_EQ(store->summary(first.id), summaryFor(first));
   EXPECT_EQ(store->size().scenes, 1u);
   EXPECT_GE(store->size().bytes, 10u);
@@ -114,7 +117,7 @@ TEST_P(AnyStore, KeepsBundlesOfManyParts) {
 }
 
 TEST_P(AnyStore, RemovesAllOfAScene) {
-  const auto store = open();
+  auto store = open();
   const PackedBundle first = numbered(1);
   put(*store, first);
   EXPECT_TRUE(store->remove(first.id));
@@ -124,6 +127,9 @@ TEST_P(AnyStore, RemovesAllOfAScene) {
   EXPECT_EQ(store->size().scenes, 0u);
   EXPECT_EQ(store->size().bytes, 0u);
   EXPECT_TRUE(put(*store, first)) << "it may come again";
+  EXPECT_TRUE(store->remove(first.id));
+  store.reset();
+  EXPECT_TRUE(directory_.empty() || fs::is_empty(directory_));
 }
 
 TEST_P(AnyStore, PagesFollowEachOther) {

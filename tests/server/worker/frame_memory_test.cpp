@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "server/worker/quality_choices.h"
+
 namespace gnomon {
 namespace {
 
@@ -59,6 +61,20 @@ TEST(FrameMemory, TheLargestDoesNotOverflow) {
   spec.views = {View::color, View::depth, View::normal, View::cascades, View::shadow, View::atlas};
   spec.output.format = ImageFormat::exr;
   EXPECT_EQ(frameBytes(spec), 6ull * 65536 * 65536 * 16);
+}
+
+TEST(QualityChoices, RemembersTheLastThatWasUsed) {
+  QualityChoices choices;
+  QualityReport report;
+  report.chosen = 3;
+  EXPECT_FALSE(choices.find("a"));
+  choices.keep("a", report);
+  choices.keep("b", {});
+  ASSERT_TRUE(choices.find("a"));
+  EXPECT_EQ(choices.find("a")->chosen, 3u);
+  for (int i = 0; i < 1023; ++i) choices.keep(std::to_string(i), {});
+  EXPECT_TRUE(choices.find("a")) << "used after b";
+  EXPECT_FALSE(choices.find("b"));
 }
 
 } // namespace

@@ -14,6 +14,14 @@ Image blackBut(int width, int height, int pixel, std::uint8_t red) {
   return {width, height, {"R", "G", "B", "A"}, pixels};
 }
 
+void expectRedSecond(const Image& a, const Image& b, double threshold) {
+  const auto file = differencePicture(a, b, threshold);
+  ASSERT_TRUE(file);
+  const auto picture = decodePicture(*file, "diff");
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(std::get<0>(picture->front().image.pixels), (std::vector<std::uint8_t>{0, 0, 0, 255, 255, 0, 0, 255}));
+}
+
 TEST(PictureDifference, EqualPicturesHaveNone) {
   const Image picture = blackBut(3, 2, 4, 51);
   const auto difference = differenceOf(picture, picture, 0);
@@ -48,11 +56,7 @@ TEST(PictureDifference, SizesThatDifferAreAProblem) {
 }
 
 TEST(PictureDifference, ItsPictureIsBlackWhereNothingDiffersAndRedBeyondTheThreshold) {
-  const auto file = differencePicture(blackBut(2, 1, 1, 200), blackBut(2, 1, 1, 0), 0.5);
-  ASSERT_TRUE(file);
-  const auto picture = decodePicture(*file, "diff");
-  ASSERT_TRUE(picture);
-  EXPECT_EQ(std::get<0>(picture->front().image.pixels), (std::vector<std::uint8_t>{0, 0, 0, 255, 255, 0, 0, 255}));
+  expectRedSecond(blackBut(2, 1, 1, 200), blackBut(2, 1, 1, 0), 0.5);
 }
 
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
@@ -77,11 +81,7 @@ TEST(PictureDifference, ANumberAndNoneDifferWithoutEnd) {
     ASSERT_TRUE(difference);
     EXPECT_EQ(difference->largest, kInfinite);
     EXPECT_EQ(difference->beyond, 1);
-    const auto file = differencePicture(depths({1, 1}), depths({1, other}), 0);
-    ASSERT_TRUE(file);
-    const auto picture = decodePicture(*file, "diff");
-    ASSERT_TRUE(picture);
-    EXPECT_EQ(std::get<0>(picture->front().image.pixels), (std::vector<std::uint8_t>{0, 0, 0, 255, 255, 0, 0, 255}));
+    expectRedSecond(depths({1, 1}), depths({1, other}), 0);
   }
 }
 

@@ -1,8 +1,13 @@
 #include "clients/cli/files/output_names.h"
 
 #include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <rapidcheck.h>
+
+#include "clients/cli/files/new_file.h"
+#include "protocol/base/bytes.h"
 
 namespace gnomon::cli {
 namespace {
@@ -69,6 +74,46 @@ TEST(BatchItems, AFolderIsThatOfTheScene) {
 TEST(FrameNumber, Sorts) {
   EXPECT_EQ(frameNumber(7), "00007");
   EXPECT_EQ(frameNumber(123456), "123456");
+}
+
+class NewFileTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = testing::TempDir() + "new_file_test." + std::to_string(::getpid());
+    std::filesystem::create_directory(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string path() const { return folder_ + "/file"; }
+  std::string text() const {
+    std::ifstream file(path());
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  auto entries() const { return std::distance(std::filesystem::directory_iterator(folder_), {}); }
+
+  std::string folder_;
+};
+
+TEST_F(NewFileTest, AppearsOnceItIsFinished) {
+  std::ofstream(path()) << "old";
+  auto file = NewFile::create(path());
+  ASSERT_TRUE(file);
+  ASSERT_TRUE(file->write(asBytes("new ")));
+  ASSERT_TRUE(file->write(asBytes("bytes")));
+  EXPECT_EQ(text(), "old");
+  ASSERT_TRUE(file->finish());
+  EXPECT_EQ(text(), "new bytes");
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(NewFileTest, LeavesNothingWhereItIsNotFinished) {
+  {
+    auto file = NewFile::create(path());
+    ASSERT_TRUE(file);
+    const NewFile moved = *std::move(file);
+    EXPECT_EQ(entries(), 1);
+  }
+  EXPECT_EQ(entries(), 0);
 }
 
 } // namespace

@@ -1,11 +1,21 @@
 #include "clients/cli/spec/field_flags.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "clients/cli/commands/commands.h"
+#include "clients/cli/commands/spec_flags.h"
 
 namespace gnomon::cli {
 namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 const FieldFlag& flagOf(std::string_view name) {
   return *std::find_if(kFieldFlags.begin(), kFieldFlags.end(), [&](const auto& row) { return name == row.flag; });
@@ -49,6 +59,42 @@ TEST(FieldFlags, BadTextsAndPlacesAreProblems) {
     EXPECT_FALSE(fieldValue(flagOf("--eye"), text)) << text;
   }
   EXPECT_FALSE(fieldValue(flagOf("--fov"), "wide"));
+}
+
+/// The file of the request that a command line names; what is wrong with the line where it names none or two.
+std::string specOf(std::vector<std::string> words) {
+  CLI::App command;
+  std::string scene, spec;
+  command.add_option("scene", scene)->required();
+  addSpecFlag(command, spec);
+  addSpecArgument(command, spec);
+  std::reverse(words.begin(), words.end()); // as CLI11 takes them
+  try {
+    command.parse(std::move(words));
+  } catch (const CLI::ParseError& error) {
+    return error.what();
+  }
+  return spec;
+}
+
+TEST(SpecFlags, AFlagOrThePlaceBehindTheSceneNamesTheRequest) {
+  EXPECT_EQ(specOf({"a.glb"}), "");
+  EXPECT_EQ(specOf({"a.glb", "--spec", "r.json"}), "r.json");
+  EXPECT_EQ(specOf({"--spec", "-", "a.glb"}), "-");
+  EXPECT_EQ(specOf({"a.glb", "r.json"}), "r.json");
+}
+
+TEST(SpecFlags, EveryCommandThatTakesARequestTakesItByTheSameFlag) {
+  CLI::App app;
+  const auto kept = addClientCommands(app);
+  for (const char* name : {"render", "plan", "sequence", "turntable", "bake", "evaluate"}) {
+    const CLI::Option* spec = app.get_subcommand(name)->get_option_no_throw("--spec");
+    ASSERT_NE(spec, nullptr) << name;
+    EXPECT_EQ(spec->get_type_name(), "FILE") << name;
+    EXPECT_THAT(spec->get_description(),
+                StartsWith("A request as JSON; - is standard input. Flags override its fields"));
+  }
+  EXPECT_THAT(app.get_subcommand("sequence")->get_option("--spec")->get_description(), HasSubstr("/sequences"));
 }
 
 } // namespace

@@ -160,11 +160,6 @@ TEST(SpecArguments, AnEmptySpecIsTheDefaults) {
   EXPECT_EQ(toJson(resolved("", {})), toJson(FrameSpec{}));
 }
 
-TEST(SpecArguments, ASpecThatIsWrongByItselfIsRefused) {
-  EXPECT_FALSE(refused(R"({"width": 64, "width": 65})", {}).empty());
-  EXPECT_FALSE(refused("{", {}).empty());
-}
-
 TEST(SpecArguments, WhatIsWrongWithAFileByItselfIsToldWithItsName) {
   const auto told = [](const std::string& json, const std::string& file) {
     return problemLine(resolveSpec(json, {}, file).spec.problems().front());
@@ -173,14 +168,6 @@ TEST(SpecArguments, WhatIsWrongWithAFileByItselfIsToldWithItsName) {
   EXPECT_THAT(told("{\"width\": 0}", "sun.json"), StartsWith("/width: (sun.json) "));
   EXPECT_THAT(told("{", "-"), HasSubstr("(standard input) "));
   EXPECT_THAT(told("{", ""), StartsWith("This is not JSON"));
-}
-
-TEST(SpecArguments, AProblemNamesTheFlag) {
-  SpecArguments flags;
-  flags.sun = {10, 100};
-  const auto [spec, origins, json] = resolveSpec("{}", flags);
-  ASSERT_FALSE(spec);
-  EXPECT_THAT(problemLine(spec.problems().front(), origins), HasSubstr("--sun (/lights/0/sun/elevationDegrees): "));
 }
 
 TEST(ParseNumbers, TakesExactlyAsManyFiniteNumbersAsAsked) {

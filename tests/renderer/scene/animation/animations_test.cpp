@@ -88,14 +88,8 @@ TEST(Animations, ChannelsMoveWhatTheNodeHasAndNothingTwice) {
 
 TEST(Animations, KeyframesAreLimited) {
   const testing::GlbBuilder builder = moved({0, 1}, {0, 0, 0, 1, 1, 1}, "translation", "VEC3");
-  Limits limits;
-  limits.maxKeyframes = 8; // two times and six numbers
-  EXPECT_THAT(problemsOf(builder, limits), IsEmpty());
-  limits.maxKeyframes = 7;
-  EXPECT_THAT(problemsOf(builder, limits), ElementsAre(ProblemAt(ProblemCode::tooLarge, "/animations/0/samplers/0")));
-  limits = {};
-  limits.maxAnimations = 0;
-  EXPECT_THAT(problemsOf(builder, limits), ElementsAre(ProblemAt(ProblemCode::tooLarge, "/animations")));
+  expectLimit(builder, &Limits::maxKeyframes, 8, "/animations/0/samplers/0"); // two times and six numbers
+  expectBeyond(builder, &Limits::maxAnimations, 0, "/animations");
 }
 
 TEST(Animations, PointersToNodesAreChannelsAndOthersAreTold) {

@@ -13,10 +13,6 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-std::shared_ptr<const Scene> shared(const testing::GlbBuilder& builder) {
-  return std::make_shared<const Scene>(load(builder));
-}
-
 NodeOptions placed(std::variant<int, std::string> node) {
   NodeOptions entry;
   entry.node = std::move(node);
@@ -152,13 +148,7 @@ TEST(NodePlaces, APlaceComesAfterTheAnimation) {
 
 /// A cube whose vertices follow node 1, which hangs on node 2.
 testing::GlbBuilder skinned() {
-  testing::GlbBuilder builder = testing::cube();
-  const std::vector<std::uint16_t> joints(std::size_t{24} * 4, 0);
-  std::vector<float> weights(std::size_t{24} * 4, 0);
-  for (std::size_t i = 0; i < 24; ++i) weights[4 * i] = 1;
-  json& primitive = builder.json["meshes"][0]["primitives"][0];
-  primitive["attributes"]["JOINTS_0"] = builder.addAccessor(joints, "VEC4", 5123, 24);
-  primitive["attributes"]["WEIGHTS_0"] = builder.addAccessor(weights, "VEC4", 5126, 24);
+  testing::GlbBuilder builder = cubeOnJoint();
   builder.add("nodes", json::object());
   builder.addRoot({{"children", {1}}});
   builder.add("skins", {{"joints", {1}}});

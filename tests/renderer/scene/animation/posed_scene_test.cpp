@@ -15,10 +15,6 @@ namespace {
 using nlohmann::json;
 using ::testing::ElementsAre;
 
-std::shared_ptr<const Scene> shared(const testing::GlbBuilder& builder) {
-  return std::make_shared<const Scene>(load(builder));
-}
-
 AnimationMoment at(double seconds) {
   AnimationMoment moment;
   moment.index = 0;

@@ -89,19 +89,19 @@ TEST(ModelContainer, RefusesWrongChunks) {
 }
 
 /// The file's warnings, and that it has the JSON and the binary.
-std::vector<std::string> repairsOf(const Bytes& glb, std::string_view json, const Bytes& binary) {
+std::vector<std::string> repairsOf(const Bytes& glb, std::string_view text, const Bytes& binary) {
   Findings findings;
   const auto container = openContainer(glb, findings);
   EXPECT_TRUE(container);
   if (!container) return {};
-  EXPECT_EQ(container->json, json);
+  EXPECT_EQ(container->json, text);
   EXPECT_EQ(Bytes(container->binary->begin(), container->binary->end()), binary);
   EXPECT_FALSE(findings.refused());
   return findings.takeWarnings();
 }
 
 /// A GLB as its writer meant it: chunks of any length, with or without the padding that their lengths do not count.
-Bytes glbOf(std::string_view json, const Bytes& binary, bool padded) {
+Bytes glbOf(std::string_view text, const Bytes& binary, bool padded) {
   Bytes glb = testing::makeGlb("{}");
   glb.resize(12);
   const auto append = [&](std::uint32_t kind, std::span<const std::uint8_t> content) {
@@ -111,7 +111,7 @@ Bytes glbOf(std::string_view json, const Bytes& binary, bool padded) {
     glb.insert(glb.end(), content.begin(), content.end());
     if (padded) glb.resize((glb.size() + 3) / 4 * 4);
   };
-  append(0x4E4F534A, bytesOf(json));
+  append(0x4E4F534A, bytesOf(text));
   append(0x004E4942, binary);
   write32(glb, 8, static_cast<std::uint32_t>(glb.size()));
   return glb;

@@ -22,10 +22,6 @@ testing::GlbBuilder model(bool edgebreaker = true) {
   return testing::dracoModel(testing::torus(20), edgebreaker);
 }
 
-json& extension(testing::GlbBuilder& builder) {
-  return builder.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"];
-}
-
 TEST(Draco, DecodesWhatWasEncoded) {
   for (const bool edgebreaker : {false, true}) {
     const Scene scene = load(model(edgebreaker));
@@ -77,53 +73,27 @@ TEST(Draco, TakesOtherNumbersOfVerticesThatTrianglesCanUse) {
 }
 
 TEST(Draco, HoldsAttributesAgainstTheAccessorsTypes) {
-  testing::GlbBuilder builder = model();
-  builder.json["accessors"][2]["type"] = "VEC4";
-  EXPECT_THAT(findingsOf(builder), HasSubstr(kPlace + "/attributes/TEXCOORD_0: 2 x FLOAT"));
-  builder = model();
-  builder.json["accessors"][1]["componentType"] = 5120;
-  EXPECT_THAT(findingsOf(builder), HasSubstr(kPlace + "/attributes/NORMAL"));
-  builder = model();
-  builder.json["accessors"][1]["count"] = 5;
-  EXPECT_THAT(findingsOf(builder), HasSubstr(kPrimitive + "/attributes/NORMAL"));
+  expectTold(model(), {{"/accessors/2/type", "VEC4", kPlace + "/attributes/TEXCOORD_0: 2 x FLOAT"},
+                       {"/accessors/1/componentType", 5120, kPlace + "/attributes/NORMAL"},
+                       {"/accessors/1/count", 5, kPrimitive + "/attributes/NORMAL"}});
 }
 
 TEST(Draco, HoldsEveryClaimAgainstTheLimits) {
   for (const bool edgebreaker : {false, true}) {
     const testing::GlbBuilder builder = model(edgebreaker);
     const auto points = builder.json["accessors"][0]["count"].get<std::size_t>();
-    Limits limits;
-    limits.maxDecodedBytes = 800 * 12 + points * (12 + 12 + 8);
-    limits.maxTriangles = 800;
-    EXPECT_THAT(problemsOf(builder, limits), IsEmpty());
-    --limits.maxDecodedBytes;
-    Problems problems = problemsOf(builder, limits);
-    ASSERT_THAT(problems, ElementsAre(ProblemAt(ProblemCode::tooLarge, kPlace)));
-    EXPECT_EQ(problems[0].limit, std::to_string(limits.maxDecodedBytes) + " bytes");
-    limits = {};
-    limits.maxTriangles = 799;
-    problems = problemsOf(builder, limits);
-    ASSERT_THAT(problems, ElementsAre(ProblemAt(ProblemCode::tooLarge, kPlace)));
-    EXPECT_EQ(problems[0].actual, "800");
-    limits = {};
-    limits.maxVertices = points - 1;
-    EXPECT_THAT(problemsOf(builder, limits), ElementsAre(ProblemAt(ProblemCode::tooLarge, kPlace)));
+    expectLimit(builder, &Limits::maxDecodedBytes, 800 * 12 + points * (12 + 12 + 8), kPlace);
+    expectLimit(builder, &Limits::maxTriangles, 800, kPlace);
+    expectBeyond(builder, &Limits::maxVertices, points - 1, kPlace);
   }
 }
 
 TEST(Draco, RefusesAttributesThatOneSideDoesNotHave) {
-  testing::GlbBuilder builder = model();
-  extension(builder)["attributes"]["COLOR_0"] = 2;
-  EXPECT_THAT(findingsOf(builder), HasSubstr(kPlace + "/attributes/COLOR_0"));
-  builder = model();
-  extension(builder)["attributes"]["NORMAL"] = 77;
-  EXPECT_THAT(findingsOf(builder), HasSubstr(kPlace));
-  builder = model();
-  extension(builder)["attributes"].erase("POSITION");
-  EXPECT_THAT(findingsOf(builder), HasSubstr(kPlace + "/attributes"));
-  builder = model();
-  extension(builder)["attributes"]["NORMAL"] = -1;
-  EXPECT_THAT(findingsOf(builder), HasSubstr(kPlace + "/attributes/NORMAL"));
+  const std::string attributes = kPlace + "/attributes";
+  expectTold(model(), {{attributes + "/COLOR_0", 2, attributes + "/COLOR_0"},
+                       {attributes + "/NORMAL", 77, kPlace},
+                       {attributes + "/POSITION", nullptr, attributes},
+                       {attributes + "/NORMAL", -1, attributes + "/NORMAL"}});
 }
 
 TEST(Draco, RefusesWhatItCanNotRead) {
@@ -151,13 +121,7 @@ void takeCutAndFlippedBytes(const testing::GlbBuilder& sound) {
     builder.json["bufferViews"][0]["byteLength"] = bytes;
     EXPECT_FALSE(problemsOf(builder).empty()) << bytes;
   }
-  for (std::size_t at = 0; at < length; ++at) {
-    for (const int bits : {0x01, 0x80, 0xFF}) {
-      testing::GlbBuilder builder = sound;
-      builder.binary[at] = static_cast<std::uint8_t>(builder.binary[at] ^ bits);
-      for (const Problem& problem : problemsOf(builder)) EXPECT_NE(problem.code, ProblemCode::internal);
-    }
-  }
+  takeFlippedBytes(sound, length, 1);
 }
 
 TEST(Draco, TakesCutAndFlippedBytesOfSequences) {

@@ -49,12 +49,8 @@ TEST(Meshopt, ReadsNoFallbackBytes) {
 }
 
 TEST(Meshopt, RefusesPlainViewsOfAFallbackBuffer) {
-  testing::GlbBuilder builder = model();
-  builder.json["bufferViews"][2].erase("extensions");
-  EXPECT_THAT(findingsOf(builder), HasSubstr("/bufferViews/2/buffer"));
-  builder = model();
-  extension(builder, 0)["buffer"] = 1;
-  EXPECT_THAT(findingsOf(builder), HasSubstr(kPositions + "/buffer"));
+  expectTold(model(), {{"/bufferViews/2/extensions", nullptr, "/bufferViews/2/buffer"},
+                       {kPositions + "/buffer", 1, kPositions + "/buffer"}});
 }
 
 TEST(Meshopt, HoldsClaimsAgainstTheCompressedBytes) {
@@ -75,37 +71,24 @@ TEST(Meshopt, HoldsClaimsAgainstTheCompressedBytes) {
 
 TEST(Meshopt, HoldsTheDecodedBytesAgainstTheLimit) {
   const std::size_t points = testing::torus(20).positions.size();
-  Limits limits;
-  limits.maxDecodedBytes = points * (12 + 4 + 8) + 4 * 2400;
-  EXPECT_THAT(problemsOf(model(), limits), ::testing::IsEmpty());
-  --limits.maxDecodedBytes;
-  const Problems problems = problemsOf(model(), limits);
-  ASSERT_THAT(problems, ElementsAre(ProblemAt(ProblemCode::tooLarge, kTriangles + "/count")));
-  EXPECT_EQ(problems[0].limit, std::to_string(limits.maxDecodedBytes) + " bytes");
+  expectLimit(model(), &Limits::maxDecodedBytes, points * (12 + 4 + 8) + 4 * 2400, kTriangles + "/count");
 }
 
 TEST(Meshopt, RefusesMembersThatContradictEachOther) {
-  const auto problemsWith = [](std::size_t view, const char* member, const json& value) {
+  for (const auto& [member, value, place] : {Change{kTriangles + "/count", 2401, kTriangles + "/count"},
+                                             {kTriangles + "/count", 2403, kTriangles + "/count"},
+                                             {kTriangles + "/byteStride", 8, kTriangles + "/byteStride"},
+                                             {kTriangles + "/filter", "OCTAHEDRAL", kTriangles + "/filter"},
+                                             {kPositions + "/byteStride", 0, kPositions + "/byteStride"},
+                                             {kPositions + "/filter", "QUATERNION", kPositions + "/byteStride"},
+                                             {kPositions + "/mode", "INDICES", kPositions + "/filter"},
+                                             {kPositions + "/mode", "POINTS", kPositions + "/mode"},
+                                             {kPositions + "/filter", "COLOR", kPositions + "/filter"},
+                                             {kPositions + "/buffer", 2, kPositions + "/buffer"}}) {
     testing::GlbBuilder builder = model();
-    extension(builder, view)[member] = value;
-    return problemsOf(builder);
-  };
-  EXPECT_THAT(problemsWith(3, "count", 2401), Contains(ProblemAt(ProblemCode::invalidScene, kTriangles + "/count")));
-  EXPECT_THAT(problemsWith(3, "count", 2403), Contains(ProblemAt(ProblemCode::invalidScene, kTriangles + "/count")));
-  EXPECT_THAT(problemsWith(3, "byteStride", 8),
-              Contains(ProblemAt(ProblemCode::invalidScene, kTriangles + "/byteStride")));
-  EXPECT_THAT(problemsWith(3, "filter", "OCTAHEDRAL"),
-              Contains(ProblemAt(ProblemCode::invalidScene, kTriangles + "/filter")));
-  EXPECT_THAT(problemsWith(0, "byteStride", 0),
-              Contains(ProblemAt(ProblemCode::invalidScene, kPositions + "/byteStride")));
-  EXPECT_THAT(problemsWith(0, "filter", "QUATERNION"),
-              Contains(ProblemAt(ProblemCode::invalidScene, kPositions + "/byteStride")));
-  EXPECT_THAT(problemsWith(0, "mode", "INDICES"),
-              Contains(ProblemAt(ProblemCode::invalidScene, kPositions + "/filter")));
-  EXPECT_THAT(problemsWith(0, "mode", "POINTS"), Contains(ProblemAt(ProblemCode::invalidScene, kPositions + "/mode")));
-  EXPECT_THAT(problemsWith(0, "filter", "COLOR"),
-              Contains(ProblemAt(ProblemCode::invalidScene, kPositions + "/filter")));
-  EXPECT_THAT(problemsWith(0, "buffer", 2), Contains(ProblemAt(ProblemCode::invalidScene, kPositions + "/buffer")));
+    builder.json[json::json_pointer(member)] = value;
+    EXPECT_THAT(problemsOf(builder), Contains(ProblemAt(ProblemCode::invalidScene, place))) << member << value;
+  }
 }
 
 TEST(Meshopt, TellsDamagedAndNewerDataApart) {
@@ -120,13 +103,7 @@ TEST(Meshopt, TellsDamagedAndNewerDataApart) {
 
 TEST(Meshopt, TakesFlippedBytes) {
   const testing::GlbBuilder sound = model();
-  for (std::size_t at = 0; at < sound.binary.size(); at += 3) {
-    for (const int bits : {0x01, 0x80, 0xFF}) {
-      testing::GlbBuilder builder = sound;
-      builder.binary[at] = static_cast<std::uint8_t>(builder.binary[at] ^ bits);
-      for (const Problem& problem : problemsOf(builder)) EXPECT_NE(problem.code, ProblemCode::internal);
-    }
-  }
+  takeFlippedBytes(sound, sound.binary.size(), 3);
 }
 
 } // namespace

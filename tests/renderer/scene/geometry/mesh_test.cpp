@@ -102,18 +102,10 @@ TEST(Mesh, RefusesThePrimitiveRestartValue) {
 }
 
 TEST(Mesh, RefusesAccessorsThatDoNotFit) {
-  testing::GlbBuilder builder = testing::plane();
-  builder.json["accessors"][1]["count"] = 3;
-  EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr("/meshes/0/primitives/0/attributes/NORMAL"));
-  builder = testing::plane();
-  builder.json["accessors"][0]["type"] = "VEC2";
-  EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr("/meshes/0/primitives/0/attributes/POSITION"));
-  builder = testing::plane();
-  builder.json["accessors"][3]["componentType"] = 5122;
-  EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr("/meshes/0/primitives/0/indices"));
-  builder = testing::plane();
-  builder.json["accessors"][3]["normalized"] = true;
-  EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr("/meshes/0/primitives/0/indices"));
+  expectTold(testing::plane(), {{"/accessors/1/count", 3, "/meshes/0/primitives/0/attributes/NORMAL"},
+                                {"/accessors/0/type", "VEC2", "/meshes/0/primitives/0/attributes/POSITION"},
+                                {"/accessors/3/componentType", 5122, "/meshes/0/primitives/0/indices"},
+                                {"/accessors/3/normalized", true, "/meshes/0/primitives/0/indices"}});
 }
 
 TEST(Mesh, MakesFlatNormalsWhereThereAreNone) {
@@ -236,16 +228,8 @@ TEST(Mesh, LeavesOutPrimitivesWithoutPositions) {
 }
 
 TEST(Mesh, HoldsTrianglesAndVerticesAgainstTheLimits) {
-  Limits limits;
-  limits.maxTriangles = 11;
-  EXPECT_THAT(problemsOf(testing::cube(), limits),
-              ElementsAre(ProblemAt(ProblemCode::tooLarge, "/meshes/0/primitives/0")));
-  limits = {};
-  limits.maxVertices = 23;
-  EXPECT_THAT(problemsOf(testing::cube(), limits),
-              ElementsAre(ProblemAt(ProblemCode::tooLarge, "/meshes/0/primitives/0")));
-  limits.maxVertices = 24;
-  EXPECT_THAT(problemsOf(testing::cube(), limits), IsEmpty());
+  expectLimit(testing::cube(), &Limits::maxTriangles, 12, "/meshes/0/primitives/0");
+  expectLimit(testing::cube(), &Limits::maxVertices, 24, "/meshes/0/primitives/0");
 }
 
 } // namespace

@@ -52,32 +52,18 @@ TEST(Instancing, LeavesOutCopiesScaledToNothing) {
 
 TEST(Instancing, HoldsAccessorsAgainstEachOther) {
   testing::GlbBuilder builder = instanced();
-  attributes(builder)["SCALE"] = builder.addPoints({{1, 1, 1}, {1, 1, 1}});
-  EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr(kAttributes + "/SCALE"));
-  builder = instanced();
-  attributes(builder)["ROTATION"] = attributes(builder)["SCALE"];
-  EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr(kAttributes + "/ROTATION"));
-  builder = instanced();
-  attributes(builder) = json::object();
-  EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr(kAttributes));
-  builder = instanced();
-  attributes(builder)["SCALE"] = 99;
-  EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr(kAttributes + "/SCALE"));
-  builder = instanced();
-  attributes(builder)["ROTATION"] = builder.addAccessor(std::vector<float>(12), "VEC4", 5126, 3);
-  EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr(kAttributes));
+  const int two = builder.addPoints({{1, 1, 1}, {1, 1, 1}});
+  const int zeros = builder.addAccessor(std::vector<float>(12), "VEC4", 5126, 3);
+  expectTold(builder, {{kAttributes + "/SCALE", two, kAttributes + "/SCALE"},
+                       {kAttributes + "/ROTATION", attributes(builder)["SCALE"], kAttributes + "/ROTATION"},
+                       {kAttributes, json::object(), kAttributes},
+                       {kAttributes + "/SCALE", 99, kAttributes + "/SCALE"},
+                       {kAttributes + "/ROTATION", zeros, kAttributes}});
 }
 
 TEST(Instancing, CountsCopiesBeforeItMakesThem) {
-  Limits limits;
-  limits.maxInstances = 4; // the node and its three copies
-  EXPECT_THAT(problemsOf(instanced(), limits), IsEmpty());
-  limits.maxInstances = 3;
-  EXPECT_THAT(problemsOf(instanced(), limits), ElementsAre(ProblemAt(ProblemCode::tooLarge, "/scenes/0")));
-  limits = {};
-  limits.maxTriangles = 35;
-  EXPECT_THAT(problemsOf(instanced(), limits), ElementsAre(ProblemAt(ProblemCode::tooLarge, "/scenes/0")));
-
+  expectLimit(instanced(), &Limits::maxInstances, 4, "/scenes/0"); // the node and its three copies
+  expectBeyond(instanced(), &Limits::maxTriangles, 35, "/scenes/0");
   testing::GlbBuilder builder = instanced();
   const int many =
       builder.add("accessors", {{"componentType", 5126}, {"count", std::uint64_t{1} << 52}, {"type", "VEC3"}});

@@ -215,17 +215,10 @@ TEST(SceneViews, AnEmptyFileIsAScene) {
 TEST(SceneViews, ReuseIsHeldAgainstTheLimits) {
   testing::GlbBuilder builder = testing::cube();
   for (int i = 0; i < 9; ++i) builder.addMeshNode(0);
-  Limits limits;
-  limits.maxTriangles = 120;
-  EXPECT_EQ(load(builder, limits).summary.triangles, 120u);
-  limits.maxTriangles = 119;
-  EXPECT_THAT(problemsOf(builder, limits), ElementsAre(ProblemAt(ProblemCode::tooLarge, "/scenes/0")));
-  limits = {};
-  limits.maxInstances = 20;
-  EXPECT_THAT(problemsOf(builder, limits), IsEmpty());
-  limits.maxInstances = 19;
-  EXPECT_THAT(problemsOf(builder, limits), ElementsAre(ProblemAt(ProblemCode::tooLarge, "/scenes/0")));
+  expectLimit(builder, &Limits::maxTriangles, 120, "/scenes/0");
+  expectLimit(builder, &Limits::maxInstances, 20, "/scenes/0");
   for (int i = 0; i < 30; ++i) builder.add("scenes", {{"nodes", {0}}});
+  Limits limits;
   limits.maxInstances = 60;
   EXPECT_FALSE(problemsOf(builder, limits).empty()) << "over all scenes";
 }

@@ -41,10 +41,6 @@ testing::GlbBuilder withMaterial(const json& material) {
   return builder;
 }
 
-const Material& onlyMaterial(const Scene& scene) {
-  return scene.materials.at(static_cast<std::size_t>(scene.primitives.at(0).material));
-}
-
 TEST(MaterialExtensions, ReadsUnlitAndSpecularGlossiness) {
   const Scene scene = load(withMaterial(json::parse(R"({"extensions": {"KHR_materials_unlit": {},
       "KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0.1, 0.2, 0.3, 0.4], "specularFactor": [0.5, 0.6, 0.7],

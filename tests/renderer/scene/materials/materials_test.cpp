@@ -21,16 +21,6 @@ Bytes png(int width, int height, std::uint8_t red) {
   return *std::move(encoded);
 }
 
-/// The header of a grey PNG of one bit a pixel, and nothing after it.
-Bytes pngHeader(std::uint32_t width, std::uint32_t height) {
-  Bytes bytes{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n', 0, 0, 0, 13, 'I', 'H', 'D', 'R'};
-  for (const std::uint32_t side : {width, height}) {
-    for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::uint8_t>(side >> shift));
-  }
-  for (const int value : {1, 0, 0, 0, 0, 0, 0, 0, 0}) bytes.push_back(static_cast<std::uint8_t>(value));
-  return bytes;
-}
-
 /// A plane whose material has a base colour texture with this image.
 testing::GlbBuilder textured(const Bytes& image) {
   testing::GlbBuilder builder = testing::plane();
@@ -39,10 +29,6 @@ testing::GlbBuilder textured(const Bytes& image) {
   builder.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
   builder.json["meshes"][0]["primitives"][0]["material"] = 0;
   return builder;
-}
-
-const Material& onlyMaterial(const Scene& scene) {
-  return scene.materials.at(static_cast<std::size_t>(scene.primitives.at(0).material));
 }
 
 TEST(Materials, DefaultsAreThoseOfGltf) {
@@ -196,19 +182,6 @@ TEST(Materials, AnImageSampledInTwoWaysIsTwoTextures) {
   EXPECT_EQ(summary.images, 1u);
 }
 
-TEST(Materials, HoldsImagesAgainstTheLimitsBeforeDecoding) {
-  EXPECT_THAT(problemsOf(textured(pngHeader(20'000, 20'000))),
-              ElementsAre(ProblemAt(ProblemCode::tooLarge, "/images/0")));
-  Limits limits;
-  limits.maxImagePixels = 15;
-  EXPECT_THAT(problemsOf(textured(png(4, 4, 0)), limits), ElementsAre(ProblemAt(ProblemCode::tooLarge, "/images/0")));
-  testing::GlbBuilder two = textured(png(3, 3, 0));
-  two.add("images", {{"bufferView", two.addView(png(3, 3, 0))}});
-  two.add("textures", {{"source", 1}});
-  two.json["materials"][0]["emissiveTexture"] = {{"index", 1}};
-  EXPECT_THAT(problemsOf(two, limits), ElementsAre(ProblemAt(ProblemCode::tooLarge, "/images/1")));
-}
-
 TEST(Materials, RefusesBrokenImages) {
   EXPECT_THAT(findingsOf(textured(Bytes(20, 7))), ::testing::HasSubstr("/images/0"));
   for (const Bytes& image : {pngHeader(4, 4), pngHeader(0, 4), Bytes{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'}}) {
@@ -219,23 +192,6 @@ TEST(Materials, RefusesBrokenImages) {
   EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr("/images/0"));
   builder.json["images"][0] = json::object();
   EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr("/images/0"));
-}
-
-TEST(Materials, CountsAgainstTheLimits) {
-  Limits limits;
-  limits.maxMaterials = 1;
-  limits.maxImages = 1;
-  limits.maxNodes = 1;
-  testing::GlbBuilder builder;
-  for (int i = 0; i < 2; ++i) {
-    builder.add("materials", json::object());
-    builder.add("images", {{"uri", "data:,x"}});
-    builder.add("nodes", json::object());
-  }
-  EXPECT_THAT(problemsOf(builder, limits),
-              ::testing::UnorderedElementsAre(ProblemAt(ProblemCode::tooLarge, "/materials"),
-                                              ProblemAt(ProblemCode::tooLarge, "/images"),
-                                              ProblemAt(ProblemCode::tooLarge, "/nodes")));
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "renderer/scene/materials/uv_sets.h"
 
 #include "renderer/image/png_encode.h"
+#include "renderer/scene/materials/materials.h"
 #include "tests/renderer/scene/load.h"
 
 namespace gnomon {
@@ -129,6 +130,56 @@ TEST(UvSets, APrimitiveWithoutThoseCoordinatesReadsZeros) {
   const Scene scene = load(builder);
   EXPECT_EQ(scene.materials[0].baseColor->texCoord, 1);
   EXPECT_EQ((*scene.attributes).at(0).uv1, glm::vec2(0));
+}
+
+/// A plane of material 0 that the variant "red" gives material 1 and "same" leaves alone.
+testing::GlbBuilder withVariants() {
+  testing::GlbBuilder builder = testing::plane();
+  builder.add("materials", {{"name", "plain"}});
+  builder.add("materials", {{"name", "red"}});
+  builder.json["extensionsUsed"] = {"KHR_materials_variants"};
+  builder.json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "red"}}, {{"name", "same"}}};
+  builder.json["meshes"][0]["primitives"][0]["material"] = 0;
+  builder.json["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"] = {
+      {{"material", 1}, {"variants", {0}}}};
+  return builder;
+}
+
+TEST(MaterialVariants, EachOneHasTheFilesScenesWithItsMaterials) {
+  const Scene scene = load(withVariants());
+  EXPECT_THAT(scene.variants, ElementsAre("red", "same"));
+  EXPECT_THAT(scene.summary.materialVariants, ElementsAre("red", "same"));
+  EXPECT_EQ(fileScenes(scene), 1);
+  EXPECT_EQ(scene.summary.scenes, 1);
+  ASSERT_EQ(scene.scenes.size(), 3u);
+  EXPECT_EQ(materialOf(scene, scene.scenes[0].instances.at(0)), 0);
+  EXPECT_EQ(materialOf(scene, scene.scenes[1].instances.at(0)), 1);
+  EXPECT_EQ(materialOf(scene, scene.scenes[2].instances.at(0)), 0);
+}
+
+TEST(MaterialVariants, IndicesNameWhatThereIs) {
+  const std::string mapping = "/meshes/0/primitives/0/extensions/KHR_materials_variants/mappings/0";
+  testing::GlbBuilder builder = withVariants();
+  auto& first = builder.json["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"][0];
+  first["variants"] = {2};
+  EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, mapping + "/variants/0")));
+  first["variants"] = {0};
+  first["material"] = 7;
+  EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, mapping + "/material")));
+}
+
+TEST(MaterialVariants, WithoutAListOfThemNothingChanges) {
+  testing::GlbBuilder builder = withVariants();
+  builder.json.erase("extensions");
+  builder.json["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"][0]["variants"] =
+      nlohmann::json::array();
+  const Scene scene = load(builder);
+  EXPECT_EQ(scene.scenes.size(), 1u);
+}
+
+TEST(MaterialVariants, AreHeldAgainstTheLimits) {
+  expectBeyond(withVariants(), &Limits::maxInstances, 5, "/extensions/KHR_materials_variants/variants");
+  expectBeyond(withVariants(), &Limits::maxInstances, 1, "/extensions/KHR_materials_variants/variants");
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
 #include <numbers>
 
 #include "tests/renderer/scene/geometry.h"
@@ -145,24 +146,94 @@ TEST(Pose, ASkinnedMeshWithoutASkinFollowsItsNode) {
 }
 
 TEST(Skins, HoldsJointsAndMatricesAgainstEachOther) {
-  testing::GlbBuilder builder = bentArm().builder;
-  builder.json["skins"][0]["joints"] = {1};
-  EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr("/nodes/0/skin"));
-  builder = bentArm().builder;
-  builder.json["skins"][0]["joints"] = {0, 1, 2};
-  EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr("/skins/0/inverseBindMatrices"));
-  builder = bentArm().builder;
-  builder.json["skins"][0]["inverseBindMatrices"] = 0;
-  EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr("/skins/0/inverseBindMatrices"));
-  builder = bentArm().builder;
-  builder.json["skins"][0]["joints"] = json::array();
-  EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr("/skins/0/joints"));
-  builder = bentArm().builder;
-  builder.json["meshes"][0]["primitives"][0]["attributes"].erase("WEIGHTS_0");
-  EXPECT_THAT(findingsOf(builder), ::testing::HasSubstr("/meshes/0/primitives/0/attributes/JOINTS_0"));
-  Limits limits;
-  limits.maxJoints = 1;
-  EXPECT_THAT(problemsOf(bentArm().builder, limits), ElementsAre(ProblemAt(ProblemCode::tooLarge, "/skins/0/joints")));
+  const std::string attributes = "/meshes/0/primitives/0/attributes";
+  expectTold(bentArm().builder, {{"/skins/0/joints", json::array({1}), "/nodes/0/skin"},
+                                 {"/skins/0/joints", {0, 1, 2}, "/skins/0/inverseBindMatrices"},
+                                 {"/skins/0/inverseBindMatrices", 0, "/skins/0/inverseBindMatrices"},
+                                 {"/skins/0/joints", json::array(), "/skins/0/joints"},
+                                 {attributes + "/WEIGHTS_0", nullptr, attributes + "/JOINTS_0"}});
+  expectBeyond(bentArm().builder, &Limits::maxJoints, 1, "/skins/0/joints");
+}
+
+/// A triangle whose first target lifts its second vertex by 2, and whose second turns all normals.
+testing::GlbBuilder morphing() {
+  testing::GlbBuilder builder;
+  const int position = builder.addPoints({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  const int normal = builder.addPoints({{0, 0, 1}, {0, 0, 1}, {0, 0, 1}});
+  const int lift = builder.addPoints({{0, 0, 0}, {0, 0, 2}, {0, 0, 0}});
+  const int turn = builder.addPoints({{1, 0, -1}, {1, 0, -1}, {1, 0, -1}});
+  json primitive = {{"attributes", {{"POSITION", position}, {"NORMAL", normal}}}};
+  primitive["targets"] = {{{"POSITION", lift}}, {{"NORMAL", turn}}};
+  builder.addMeshNode(builder.addMesh(primitive));
+  return builder;
+}
+
+TEST(Pose, G3_MorphTargetsMoveByTheirDefaultWeights) {
+  testing::GlbBuilder builder = morphing();
+  EXPECT_EQ(load(builder).scenes[0].bounds.max.z, 0) << "without weights, all are 0";
+  builder.json["meshes"][0]["weights"] = {0.25, 1};
+  Scene scene = load(builder);
+  EXPECT_EQ(scene.scenes[0].bounds.max.z, 0.5);
+  expectNear(placedVertices(scene, 3)[0].normal, {1, 0, 0}, 1e-6);
+  builder.json["nodes"][0]["weights"] = {-1, 0};
+  scene = load(builder);
+  EXPECT_EQ(scene.scenes[0].bounds.min.z, -2) << "the node's own come first";
+  EXPECT_EQ(scene.clusters[0].bounds.min.z, -2);
+  expectNear(placedVertices(scene, 3)[0].normal, {0, 0, 1}, 1e-6);
+}
+
+TEST(Pose, NodesThatCanNotDifferShareTheirVertices) {
+  testing::GlbBuilder builder = morphing();
+  builder.addMeshNode(0);
+  builder.addMeshNode(0);
+  builder.json["nodes"][2]["weights"] = {1, 0};
+  EXPECT_EQ(load(builder).positions.size(), 6u);
+  EXPECT_EQ(load(builder).summary.triangles, 3u);
+  const int times = builder.addAccessor(std::vector<float>{0, 1}, "SCALAR", 5126, 2);
+  const int values = builder.addAccessor(std::vector<float>{0, 0, 1, 1}, "SCALAR", 5126, 4);
+  builder.add("animations", {{"samplers", {{{"input", times}, {"output", values}}}},
+                             {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "weights"}}}}}}});
+  EXPECT_EQ(load(builder).positions.size(), 9u);
+}
+
+TEST(Pose, FlatNormalsFollowTheMorphedTriangle) {
+  testing::GlbBuilder builder = morphing();
+  builder.json["meshes"][0]["primitives"][0]["attributes"].erase("NORMAL");
+  builder.json["meshes"][0]["weights"] = {0.5, 0};
+  for (const Placed& vertex : placedVertices(load(builder), 3)) {
+    expectNear(vertex.normal, glm::normalize(glm::dvec3(-1, 0, 1)), 1e-6);
+  }
+}
+
+TEST(Pose, ATriangleMayGrowFromNothing) {
+  testing::GlbBuilder builder = morphing();
+  builder.json["meshes"][0]["primitives"][0]["attributes"] = {
+      {"POSITION", builder.addPoints({{0, 0, 0}, {0, 0, 0}, {0, 1, 0}})}};
+  for (const Placed& vertex : placedVertices(load(builder), 3)) EXPECT_EQ(glm::length(vertex.normal), 1);
+  builder.json["meshes"][0]["weights"] = {1, 0};
+  EXPECT_EQ(load(builder).scenes[0].bounds.max.z, 2);
+}
+
+TEST(MorphTargets, AreHeldAgainstTheirMeshAndTheLimits) {
+  const std::string targets = "/meshes/0/primitives/0/targets";
+  testing::GlbBuilder builder = morphing();
+  const int one = builder.addPoints({{0, 0, 0}});
+  const int infinite = builder.addPoints({{0, 0, 0}, {0, std::numeric_limits<float>::infinity(), 0}, {0, 0, 0}});
+  json fewer = builder.json["meshes"][0]["primitives"][0];
+  fewer["targets"].erase(1);
+  expectTold(builder, {{"/meshes/0/weights", json::array({1}), "/meshes/0/weights"},
+                       {"/nodes/0/weights", {1, 2, 3}, "/nodes/0/weights"},
+                       {targets + "/1/NORMAL", one, targets + "/1/NORMAL"},
+                       {"/meshes/0/primitives/1", fewer, "/meshes/0/primitives/1/targets"},
+                       {targets + "/0/POSITION", infinite, targets + "/0"}});
+  expectBeyond(morphing(), &Limits::maxMorphTargets, 1, targets);
+  expectLimit(morphing(), &Limits::maxMorphedVertices, 6, targets);
+
+  builder = morphing();
+  for (int i = 1; i < 4; ++i) builder.addRoot({{"mesh", 0}, {"weights", {0.1 * i, 0}}});
+  expectLimit(builder, &Limits::maxVertices, 12, "/nodes/3/mesh");
+  expectBeyond(builder, &Limits::maxTriangles, 3, "/nodes/3/mesh");
+  expectBeyond(builder, &Limits::maxMorphedVertices, 15, "/nodes/3/mesh");
 }
 
 } // namespace
