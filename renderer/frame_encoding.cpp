@@ -6,12 +6,7 @@
 #include "protocol/spec/enum_rows.h"
 #include "protocol/spec/format_traits.h"
 #include "renderer/image/image_codec.h"
-#include "renderer/image/jpeg_encode.h"
-#include "renderer/image/npy_encode.h"
-#include "renderer/image/png_encode.h"
-#include "renderer/image/tiff_encode.h"
-#include "renderer/image/webp_encode.h"
-#include "renderer/image/zip_encode.h"
+#include "renderer/image/picture_encode.h"
 #include "renderer/render.h"
 
 namespace gnomon {

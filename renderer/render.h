@@ -12,22 +12,18 @@
 #include "protocol/report/replies.h"
 #include "protocol/spec/frame_spec.h"
 #include "protocol/spec/limits.h"
-#include "renderer/charts/evaluation_chart.h"
-#include "renderer/charts/evaluation_csv.h"
+#include "renderer/charts/charts.h"
 #include "renderer/core/stop.h"
 #include "renderer/device/device.h"
 #include "renderer/evaluation/evaluate.h"
 #include "renderer/evaluation/quality.h"
-#include "renderer/export/bake_file.h"
-#include "renderer/export/sensor_pictures.h"
+#include "renderer/export/export_files.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/light_map_store.h"
-#include "renderer/image/exr_decode.h"
-#include "renderer/image/i420_encode.h"
 #include "renderer/image/image.h"
 #include "renderer/image/image_codec.h"
-#include "renderer/image/png_encode.h"
-#include "renderer/scene/known_content.h"
+#include "renderer/image/picture_encode.h"
+#include "renderer/scene/shared_content.h"
 #include "renderer/video/video_file.h"
 #include "renderer/volume/vdb_file.h"
 
@@ -68,7 +64,7 @@ class Baker {
   /// one at /shadow/technique where no light is baked, and one of code unavailable where `listener` asked to stop.
   Result<BakeReport> bake(const ScenePtr& scene, const FrameSpec& spec, const BakeListener& listener = {}) const;
 
-  /// The same as a file: bakeFile (export/bake_file.h) with its problems.
+  /// The same as a file: bakeFile (export/export_files.h) with its problems.
   Result<Bytes> file(const ScenePtr& scene, const FrameSpec& spec, BakeFile kind, std::optional<int> light = {},
                      const BakeListener& listener = {}) const;
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "renderer/scene/mesh_edges.h"
+#include "renderer/scene/geometry/welding.h"
 
 namespace gnomon {
 namespace {

@@ -33,19 +33,8 @@ std::string number(double value) {
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c; // control characters are no XML
-    }
+    const char shown = static_cast<unsigned char>(c) < 0x20 ? ' ' : c; // control characters are no XML
+    out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, shown);
   }
   return out;
 }

@@ -1,10 +1,9 @@
-#include "renderer/charts/evaluation_chart.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "protocol/base/text.h"
 #include "renderer/charts/chart_parts.h"
+#include "renderer/charts/charts.h"
 
 namespace gnomon {
 namespace {

@@ -1,11 +1,10 @@
-#include "renderer/charts/evaluation_csv.h"
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "protocol/fields/field_checks.h"
 #include "protocol/fields/field_encode.h"
 #include "protocol/report/error_metrics.h"
+#include "renderer/charts/charts.h"
 
 namespace gnomon {
 namespace {

@@ -1,6 +1,6 @@
 #include "renderer/cpu/scene_cache.h"
 
-#include "renderer/scene/same_surfaces.h"
+#include "renderer/scene/shared_content.h"
 
 namespace gnomon::cpu {
 

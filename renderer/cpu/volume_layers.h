@@ -6,7 +6,7 @@
 #include "renderer/core/camera_view.h"
 #include "renderer/cpu/raster/depth_buffer.h"
 #include "renderer/cpu/shadow/shadow_maps.h"
-#include "renderer/volume/frame_volumes.h"
+#include "renderer/volume/volume_light.h"
 
 namespace gnomon::cpu {
 

@@ -15,7 +15,7 @@
 #include "renderer/prepare/lit_light.h"
 #include "renderer/rays/traced_scene.h"
 #include "renderer/resolve/resolve_frame.h"
-#include "renderer/volume/frame_volumes.h"
+#include "renderer/volume/volume_light.h"
 
 /// What draws frames. A device decides nothing: what is seen, planned and reported is passed in plain values. Calls
 /// come in the order in which they stand here, on the thread that made it.

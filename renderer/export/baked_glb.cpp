@@ -8,8 +8,7 @@
 #include "renderer/bake/mapped_mesh.h"
 #include "renderer/core/linear_algebra.h"
 #include "renderer/core/srgb.h"
-#include "renderer/export/glb_materials.h"
-#include "renderer/image/png_encode.h"
+#include "renderer/image/picture_encode.h"
 
 namespace gnomon {
 namespace {
@@ -182,7 +181,7 @@ class GlbWriter {
 
 Problem tooLarge(std::size_t most) {
   return {ProblemCode::tooLarge, "", "The scene with its light map is too large for a GLB.",
-          std::to_string(most) + " bytes", ""};
+          std::to_string(most) + " bytes"};
 }
 
 } // namespace

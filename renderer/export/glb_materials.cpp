@@ -1,10 +1,9 @@
-#include "renderer/export/glb_materials.h"
-
 #include <cmath>
 #include <map>
 #include <set>
 
-#include "renderer/image/png_encode.h"
+#include "renderer/export/baked_glb.h"
+#include "renderer/image/picture_encode.h"
 
 namespace gnomon {
 namespace {

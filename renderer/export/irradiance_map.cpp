@@ -1,5 +1,3 @@
-#include "renderer/export/irradiance_map.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +6,7 @@
 #include "renderer/core/light.h"
 #include "renderer/core/linear_algebra.h"
 #include "renderer/core/parallel.h"
+#include "renderer/export/baked_glb.h"
 
 namespace gnomon {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "renderer/core/stop.h"
-#include "renderer/scene/memory.h"
-#include "renderer/scene/same_surfaces.h"
+#include "renderer/scene/shared_content.h"
+#include "renderer/scene/summary.h"
 
 namespace gnomon {
 

@@ -4,7 +4,7 @@
 
 #include "renderer/core/collect.h"
 #include "renderer/core/linear_algebra.h"
-#include "renderer/volume/grid_file.h"
+#include "renderer/volume/density_grid.h"
 
 namespace gnomon {
 namespace {

@@ -9,7 +9,7 @@
 #include "protocol/spec/volume_options.h"
 #include "renderer/resolve/resolve_nodes.h"
 #include "renderer/volume/medium.h"
-#include "renderer/volume/volume_light_store.h"
+#include "renderer/volume/volume_light.h"
 
 namespace gnomon {
 

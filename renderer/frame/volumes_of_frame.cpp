@@ -15,7 +15,7 @@
 #include "renderer/device/shader_data.h"
 #include "renderer/rays/trace.h"
 #include "renderer/resolve/plan_input.h"
-#include "renderer/scene/animation/node_places.h"
+#include "renderer/scene/animation/posed_scene.h"
 #include "renderer/shaders/shared/functions.h"
 #include "renderer/volume/volume_light.h"
 

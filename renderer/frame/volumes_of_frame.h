@@ -6,7 +6,7 @@
 #include "renderer/frame/settle_frame.h"
 #include "renderer/frame/traced_scene_cache.h"
 #include "renderer/frame/volume_cache.h"
-#include "renderer/volume/frame_volumes.h"
+#include "renderer/volume/volume_light.h"
 
 namespace gnomon {
 

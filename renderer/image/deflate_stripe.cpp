@@ -42,12 +42,9 @@ Bytes stored(Data data) {
   return blocks;
 }
 
-/// Empty where it does not fit into `room`. ISA-L's level 3 is not used: its bytes differ between SSE 4.2, AVX2 and
-/// AVX-512.
-///
-/// The first byte is stored, and is the dictionary of the rest. Without a dictionary ISA-L 2.30 enters the first place
-/// of the data into its table under a hash not of the bytes there but of the stream's own address (level 1 on x86:
-/// `write_first_byte` shifts the wrong register), and now and then finds other matches for it.
+/// Empty where it does not fit into `room`. The first byte is stored and is the dictionary of the rest: without one
+/// ISA-L 2.30 enters the stream's own address into its table (level 1 on x86: `write_first_byte`). Level 3 is not used:
+/// its bytes differ between SSE 4.2, AVX2 and AVX-512.
 Bytes byIsal(Data data, int level, std::size_t room) {
   static_assert(ISAL_DEF_LVL1_SMALL > ISAL_DEF_LVL0_SMALL);
   constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max() - kSlack;
@@ -56,8 +53,7 @@ Bytes byIsal(Data data, int level, std::size_t room) {
   const Data rest = data.subspan(kStored);
   Bytes blocks = stored(data.first(kStored));
   UnfilledVector<std::uint8_t> more(std::min(room, kMost) - blocks.size());
-  // Zeroed: ISA-L reads members that its init leaves alone, hist_bits among them, and the bytes must not depend on
-  // them.
+  // Zeroed: ISA-L reads members that its init leaves alone, hist_bits among them.
   const auto tokens = std::make_unique<std::uint8_t[]>(ISAL_DEF_LVL1_SMALL);
   const auto stream = std::make_unique<isal_zstream>();
   isal_deflate_init(stream.get());
@@ -103,8 +99,8 @@ std::optional<LastBlock> lastBlockOf(Data stream, std::size_t size) {
   return std::nullopt;
 }
 
-/// libdeflate writes whole streams only: the last block is made one like the others, and an empty stored block behind
-/// it reaches to the next byte, as a flush of zlib does. Empty where the stream does not fit into `room`.
+/// libdeflate writes whole streams: the last block is made one like the others, and an empty stored block reaches to
+/// the next byte. Empty where the stream does not fit into `room`.
 Bytes byLibdeflate(Data data, int level, std::size_t room) {
   const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
       libdeflate_alloc_compressor(level), libdeflate_free_compressor);

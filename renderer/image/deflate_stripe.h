@@ -7,12 +7,9 @@
 
 namespace gnomon {
 
-/// Compresses `data` on its own: whole deflate blocks (RFC 1951) that end on a byte, none of them the last of a stream
-/// and none referring to what came before. So the results for the pieces of some data, in order, are a stream of all of
-/// it that lacks its end, `kDeflateEnd`, and the pieces may be compressed in any order and on any thread. `level` 0..9:
-/// 0 stores; 1 and 2 are ISA-L's, made for speed; 3 to 9 are libdeflate's, ever smaller and slower. The bytes depend on
-/// the arguments, the two libraries, and whether the CPU knows SSE 4.2 (levels 1 and 2); they are the same with AVX2
-/// and AVX-512.
+/// Compresses `data` on its own to whole deflate blocks (RFC 1951) that end on a byte, none of them the last; the
+/// results for the pieces of some data, in order, and kDeflateEnd are a stream. `level` 0..9: 0 stores; 1 and 2 are
+/// ISA-L's; 3 to 9 libdeflate's. The bytes depend on the arguments, the libraries and, at levels 1 and 2, on SSE 4.2.
 Bytes deflateStripe(std::span<const std::uint8_t> data, int level);
 
 /// The last block of a stream, with nothing in it.

@@ -22,8 +22,7 @@ struct TextPlace {
 int digitsWidth(std::string_view text, int scale);
 inline constexpr int kDigitHeight = 7; ///< times the scale: pixels
 
-/// Writes digits and dots into an RGB picture of 8 or 16 bits; what lies outside of it is left out. REQUIRES: nothing
-/// else in `text`.
+/// Writes digits and dots into an RGB picture of 8 or 16 bits, clipped to it. REQUIRES: nothing else in `text`.
 void drawDigits(Image& picture, std::string_view text, const TextPlace& place, const Rgb& color);
 
 /// Fills a rectangle, cut to the picture.

@@ -1,5 +1,3 @@
-#include "renderer/image/exr_decode.h"
-
 #include <OpenEXR/Iex.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -14,6 +12,8 @@
 #include <exception>
 #include <map>
 #include <string_view>
+
+#include "renderer/image/image_codec.h"
 
 namespace gnomon {
 namespace {
@@ -68,7 +68,7 @@ std::string unnamedLayer(const Imf::Header& header) {
   return header.hasName() && !header.name().empty() ? header.name() : "main";
 }
 
-/// Red first, as everywhere else; what is no colour by its name.
+/// Red first, then by name.
 void sortChannels(std::vector<std::string>& names) {
   const auto rank = [](const std::string& name) {
     constexpr std::string_view kColors = "RGBA";

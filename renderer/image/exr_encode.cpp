@@ -1,5 +1,3 @@
-#include "renderer/image/exr_encode.h"
-
 #include <Imath/half.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -10,16 +8,73 @@
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <exception>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "renderer/core/stop.h"
+#include "renderer/image/picture_encode.h"
 
 namespace gnomon {
+
 namespace {
+
+Problem mistake(const std::string& detail) {
+  return {ProblemCode::internal, "", detail};
+}
+
+/// Null where the layer is not a float image whose pixels match its size and channels.
+const std::vector<float>* floatsOf(const ImageLayer& layer) {
+  return layer.image ? pixelsAs<float>(*layer.image) : nullptr;
+}
+
+bool isColor(const std::string& channel) {
+  return channel == "R" || channel == "G" || channel == "B";
+}
+
+/// Copies `layer` into the channels of `part` that begin at `firstChannel`.
+void placeLayer(ExrPart& part, std::size_t firstChannel, const Image& layer, const std::vector<float>& source) {
+  const std::size_t stride = part.channels.size();
+  const std::size_t channelCount = layer.channels.size();
+  const auto alpha =
+      static_cast<std::size_t>(std::find(layer.channels.begin(), layer.channels.end(), "A") - layer.channels.begin());
+  for (std::size_t channel = 0; channel < channelCount; ++channel) {
+    const bool associate = alpha < channelCount && isColor(layer.channels[channel]);
+    float* target = part.pixels.data() + firstChannel + channel;
+    for (std::size_t from = 0; from < source.size(); from += channelCount, target += stride) {
+      *target = associate ? source[from + channel] * source[from + alpha] : source[from + channel];
+    }
+  }
+}
+
+bool hasDuplicates(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  return std::adjacent_find(names.begin(), names.end()) != names.end();
+}
+
+/// The layers of one size, as one part.
+ExrPart makePart(const std::vector<const ImageLayer*>& layers, ExrPixelType pixelType) {
+  const ImageLayer& first = *layers.front();
+  ExrPart part{first.name.empty() ? "main" : first.name, first.image->width, first.image->height, {}, {}, {}};
+  for (const ImageLayer* layer : layers) {
+    for (const std::string& channel : layer->image->channels) {
+      part.channels.push_back(layer->name.empty() ? channel : layer->name + "." + channel);
+      part.half.push_back(pixelType == ExrPixelType::half && !layer->wide);
+    }
+  }
+  part.pixels.resize(static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height) *
+                     part.channels.size());
+  std::size_t firstChannel = 0;
+  for (const ImageLayer* layer : layers) {
+    placeLayer(part, firstChannel, *layer->image, *floatsOf(*layer));
+    firstChannel += layer->image->channels.size();
+  }
+  return part;
+}
 
 /// Pinned, so that equal pictures have equal bytes.
 constexpr const char* kDateTime = "2000:01:01 00:00:00";
@@ -46,26 +101,15 @@ class MemoryStream : public Imf::OStream {
   std::size_t at_ = 0;
 };
 
-Imf::Compression compressionOf(ExrCompression compression) {
-  switch (compression) {
-    case ExrCompression::none:
-      return Imf::NO_COMPRESSION;
-    case ExrCompression::rle:
-      return Imf::RLE_COMPRESSION;
-    case ExrCompression::zip:
-      return Imf::ZIP_COMPRESSION;
-    case ExrCompression::piz:
-      return Imf::PIZ_COMPRESSION;
-  }
-  return Imf::NO_COMPRESSION;
-}
+constexpr std::array kCompressions{Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIP_COMPRESSION,
+                                   Imf::PIZ_COMPRESSION}; ///< in the order of ExrCompression
 
 Imf::Header headerOf(const ExrPart& part, const ExrPart& first, ExrCompression compression) {
   const auto window = [](const ExrPart& of) {
     return Imath::Box2i(Imath::V2i(0, 0), Imath::V2i(of.width - 1, of.height - 1));
   };
   Imf::Header header(window(first), window(part));
-  header.compression() = compressionOf(compression);
+  header.compression() = kCompressions[static_cast<std::size_t>(compression)];
   header.setName(part.name);
   header.setType(Imf::SCANLINEIMAGE);
   Imf::addCapDate(header, kDateTime);
@@ -101,8 +145,7 @@ void writeRows(Imf::OutputPart& output, const ExrPart& part, int y, std::vector<
   output.writePixels(rows);
 }
 
-} // namespace
-
+/// All share one display window, that of the first.
 Result<Bytes> encodeExrParts(std::span<const ExrPart> parts, ExrCompression compression) {
   try {
     std::vector<Imf::Header> headers;
@@ -122,9 +165,43 @@ Result<Bytes> encodeExrParts(std::span<const ExrPart> parts, ExrCompression comp
     }
     return stream.take();
   } catch (const std::exception& error) {
-    return Problem{ProblemCode::internal, "", std::string("The EXR could not be written: ") + error.what() + ".", "",
-                   ""};
+    return Problem{ProblemCode::internal, "", std::string("The EXR could not be written: ") + error.what() + "."};
   }
+}
+
+} // namespace
+
+Result<std::vector<ExrPart>> exrParts(std::span<const ImageLayer> layers, ExrPixelType pixelType) {
+  if (layers.empty()) return mistake("An EXR needs a layer.");
+  std::vector<std::vector<const ImageLayer*>> groups;
+  for (const ImageLayer& layer : layers) {
+    if (!floatsOf(layer)) return mistake("An EXR's layer is no float image of its own size.");
+    const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& members) {
+      const Image& member = *members.front()->image;
+      return member.width == layer.image->width && member.height == layer.image->height;
+    });
+    if (group == groups.end()) {
+      groups.push_back({&layer});
+    } else {
+      group->push_back(&layer);
+    }
+  }
+
+  std::vector<ExrPart> parts;
+  std::vector<std::string> partNames;
+  for (const auto& group : groups) {
+    parts.push_back(makePart(group, pixelType));
+    partNames.push_back(parts.back().name);
+    if (hasDuplicates(parts.back().channels)) return mistake("Two channels of an EXR have the same name.");
+  }
+  if (hasDuplicates(partNames)) return mistake("Two parts of an EXR have the same name.");
+  return parts;
+}
+
+Result<Bytes> encodeExr(std::span<const ImageLayer> layers, ExrCompression compression, ExrPixelType pixelType) {
+  auto parts = exrParts(layers, pixelType);
+  if (!parts) return std::move(parts).problems();
+  return encodeExrParts(*parts, compression);
 }
 
 } // namespace gnomon

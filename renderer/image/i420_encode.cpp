@@ -1,10 +1,9 @@
-#include "renderer/image/i420_encode.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <span>
 
 #include "renderer/core/parallel.h"
+#include "renderer/image/picture_encode.h"
 
 namespace gnomon {
 namespace {
@@ -73,7 +72,7 @@ void chromaRow(const Pixels& pixels, std::size_t y, std::uint8_t* cb, std::uint8
 Result<Bytes> encodeI420(const Image& image) {
   const auto* bytes = pixelsAs<std::uint8_t>(image);
   if (!bytes || !isPicture(image)) {
-    return Problem{ProblemCode::internal, "", "A video needs 8-bit images of 1, 3 or 4 channels.", "", ""};
+    return Problem{ProblemCode::internal, "", "A video needs 8-bit images of 1, 3 or 4 channels."};
   }
   const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
   const Pixels pixels{bytes->data(), width, height, image.channels.size()};

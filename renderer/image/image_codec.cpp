@@ -5,9 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "renderer/image/decoded_rows.h"
-#include "renderer/image/exr_encode.h"
-#include "renderer/image/exr_layout.h"
 #include "renderer/image/image_container.h"
 #include "renderer/image/picture_decode.h"
 
@@ -46,24 +43,12 @@ std::string decodeInto(DecodedRows& rows, const CheckedImage& image) {
 
 } // namespace
 
-Result<Bytes> encodeExr(std::span<const ImageLayer> layers, ExrCompression compression, ExrPixelType pixelType) {
-  auto parts = exrParts(layers, pixelType);
-  if (!parts) return std::move(parts).problems();
-  return encodeExrParts(*parts, compression);
-}
-
 Result<ImageSize> imageSize(std::span<const std::uint8_t> encoded) {
   const auto format = formatOf(encoded);
   if (!format) return unsupportedImage("The image is no PNG, JPEG or WebP.");
-  switch (*format) {
-    case PictureFormat::png:
-      return pngSize(encoded);
-    case PictureFormat::jpeg:
-      return jpegSize(encoded);
-    case PictureFormat::webp:
-      return webpSize(encoded);
-  }
-  return unsupportedImage("The image is no PNG, JPEG or WebP.");
+  return *format == PictureFormat::png    ? pngSize(encoded)
+         : *format == PictureFormat::jpeg ? jpegSize(encoded)
+                                          : webpSize(encoded);
 }
 
 Result<CheckedImage> checkImage(std::span<const std::uint8_t> encoded, int maxSide, std::int64_t maxPixels) {
@@ -103,6 +88,29 @@ Result<Image> decodeImage(std::span<const std::uint8_t> encoded, int maxSide, st
   if (checked->picture.cutShort) return malformedImage("The image is cut short.");
   if (!decoded.wrong.empty()) return malformedImage("The image could not be decoded: " + decoded.wrong + ".");
   return std::move(decoded.image);
+}
+
+DecodedRows::DecodedRows(const ImageSize& size, std::uint8_t* rgba) : size_(size), rgba_(rgba), held_(size.height) {}
+
+DecodedRows::DecodedRows(const ImageSize& size, int atOnce, const TakeRows& take) : size_(size), take_(take) {
+  holdRows(std::min(atOnce, size.height));
+}
+
+void DecodedRows::holdRows(int rows) {
+  buffer_.resize(rowBytes() * static_cast<std::size_t>(rows));
+  rgba_ = buffer_.data();
+  held_ = rows;
+}
+
+std::uint8_t* DecodedRows::all() {
+  if (held_ < size_.height) holdRows(size_.height);
+  return rgba_;
+}
+
+void DecodedRows::complete(int end) {
+  if (!take_ || (end < first_ + held_ && end < size_.height)) return;
+  take_(first_, {rgba_, rowBytes() * static_cast<std::size_t>(end - first_)});
+  first_ = end;
 }
 
 } // namespace gnomon

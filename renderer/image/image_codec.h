@@ -8,17 +8,9 @@
 
 #include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
-#include "protocol/spec/output_options.h"
 #include "renderer/image/image.h"
 
 namespace gnomon {
-
-/// One layer of an EXR: its channels are written as "name.channel"; an empty name leaves the channel names alone.
-struct ImageLayer {
-  std::string name;
-  const Image* image = nullptr;
-  bool wide = false; ///< always floats
-};
 
 /// The size of an encoded image, read from its header alone.
 struct ImageSize {
@@ -26,13 +18,7 @@ struct ImageSize {
   int height = 0;
 };
 
-/// A float image per layer. Layers of one size share a part; a layer of another size gets a part of its own, and all
-/// parts have the first one's size as their display window. Where a layer has an A, its R, G and B (straight, as
-/// everywhere here) are multiplied by it, as EXR's convention demands. A channel called Z is always written as float.
-/// The bytes depend on nothing but the arguments.
-Result<Bytes> encodeExr(std::span<const ImageLayer> layers, ExrCompression compression, ExrPixelType pixelType);
-
-/// Size of a PNG, JPEG or still WebP, told by its signature and header; anything else is unsupportedFeature.
+/// Size of a PNG, JPEG or still WebP, from its header alone; anything else is unsupportedFeature.
 Result<ImageSize> imageSize(std::span<const std::uint8_t> encoded);
 
 /// What is read: the formats of glTF and of EXT_texture_webp.
@@ -51,27 +37,39 @@ struct CheckedImage {
   EssentialImage picture;
 };
 
-/// Checks a PNG, JPEG or still WebP without decoding a pixel. Refuses what is larger than `maxSide` a side or
-/// `maxPixels` in all, and what is no such picture; one that is cut short after its header is none to refuse.
+/// Checks a PNG, JPEG or still WebP without decoding a pixel; refuses more than `maxSide` a side or `maxPixels` in all,
+/// but not files cut short behind their header.
 Result<CheckedImage> checkImage(std::span<const std::uint8_t> encoded, int maxSide, std::int64_t maxPixels);
 
-/// 8-bit RGBA. Where its data are damaged or cut short, the rows that can't be read are as the format's usual decoder
-/// leaves them: black and transparent, of a JPEG grey and opaque.
+/// 8-bit RGBA; rows that can't be read are black and transparent, of a JPEG grey and opaque.
 struct DecodedImage {
   Image image;
   std::string wrong; ///< with its data, in the decoder's words; empty = nothing
 };
 DecodedImage decodeImage(const CheckedImage& image);
 
-/// Takes complete rows, 8-bit RGBA: those from row `first` on, the rows before it having been taken. They are gone when
-/// it returns.
+/// Takes complete rows, 8-bit RGBA, from row `first` on; they are gone when it returns.
 using TakeRows = std::function<void(int first, std::span<const std::uint8_t> rgba)>;
 
-/// The same, `atOnce` rows at a time (a multiple of 16), at the end fewer; all at once where its file does not hold
-/// them in order: interlaced PNGs and WebPs. Gives what is wrong with its data; empty = nothing.
+/// The same, `atOnce` rows at a time (a multiple of 16; at the end fewer), or all at once of interlaced PNGs and WebPs.
+/// Returns what is wrong with its data; empty = nothing.
 std::string decodeRows(const CheckedImage& image, int atOnce, const TakeRows& take);
 
 /// Both in turn; a problem where anything is wrong.
 Result<Image> decodeImage(std::span<const std::uint8_t> encoded, int maxSide, std::int64_t maxPixels);
+
+/// The channels of an EXR layer: "depth.Z" is channel Z of "depth"; without a name "main", or that of the part where
+/// none of its channels has one.
+struct ExrLayer {
+  std::string name;
+  Image image; ///< floats as they stand in the file, over its data window: linear, color multiplied by its alpha
+};
+
+/// Whether the bytes begin as an EXR does.
+bool isExr(std::span<const std::uint8_t> file);
+
+/// Every layer of a file's parts, at full size. Problems: no EXR, damaged or deep; channels of fewer pixels than their
+/// part; two layers of one name; more than `maxSide` pixels a side or `maxValues` numbers in all.
+Result<std::vector<ExrLayer>> decodeExr(std::span<const std::uint8_t> file, int maxSide, std::int64_t maxValues);
 
 } // namespace gnomon

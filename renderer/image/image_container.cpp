@@ -5,8 +5,6 @@
 #include <limits>
 #include <string_view>
 
-#include "renderer/image/png_chunks.h"
-
 namespace gnomon {
 namespace {
 
@@ -54,11 +52,11 @@ std::uint32_t littleEndian(EncodedBytes bytes, std::size_t offset, std::size_t c
 }
 
 Problem malformedImage(const std::string& detail) {
-  return {ProblemCode::malformed, "", detail, "", ""};
+  return {ProblemCode::malformed, "", detail};
 }
 
 Problem unsupportedImage(const std::string& detail) {
-  return {ProblemCode::unsupportedFeature, "", detail, "", ""};
+  return {ProblemCode::unsupportedFeature, "", detail};
 }
 
 Result<ImageSize> pngSize(EncodedBytes encoded) {

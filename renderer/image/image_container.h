@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -9,7 +11,7 @@
 #include "renderer/image/image.h"
 #include "renderer/image/image_codec.h"
 
-/// What can be told about a PNG, JPEG or WebP without decoding a pixel. Every byte is untrusted.
+/// Sizes and structure of untrusted PNGs, JPEGs and WebPs, without decoding a pixel.
 namespace gnomon {
 
 using EncodedBytes = std::span<const std::uint8_t>;
@@ -21,9 +23,8 @@ Result<ImageSize> pngSize(EncodedBytes encoded);
 Result<ImageSize> jpegSize(EncodedBytes encoded);
 Result<ImageSize> webpSize(EncodedBytes encoded);
 
-/// The picture with nothing but the parts that its pixels depend on: metadata is where decoders are attacked. Of a file
-/// that is cut short, those that it has, the last one perhaps not whole; fails where that is not even a header. An
-/// animated WebP is unsupportedFeature.
+/// The parts of a file that its pixels depend on, as far as it goes; a problem where it has not even a header,
+/// unsupportedFeature for an animated WebP.
 Result<EssentialImage> essentialPng(EncodedBytes encoded);
 Result<EssentialImage> essentialJpeg(EncodedBytes encoded);
 Result<EssentialImage> essentialWebp(EncodedBytes encoded);
@@ -36,5 +37,11 @@ std::uint32_t littleEndian(EncodedBytes bytes, std::size_t offset, std::size_t c
 
 Problem malformedImage(const std::string& detail);
 Problem unsupportedImage(const std::string& detail);
+
+// How a PNG is laid out: "Portable Network Graphics (PNG) Specification", W3C, sections 5 and 11.
+
+inline constexpr std::array<std::uint8_t, 8> kPngSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+inline constexpr std::size_t kPngFrameBytes = 12;  ///< around a chunk's data: length, type and checksum
+inline constexpr std::size_t kPngHeaderBytes = 13; ///< data of the chunk IHDR
 
 } // namespace gnomon

@@ -13,12 +13,11 @@ constexpr std::uint8_t kRestartLast = 0xd7;
 constexpr std::uint8_t kEndOfImage = 0xd9;
 constexpr std::uint8_t kStartOfScan = 0xda;
 constexpr std::uint8_t kJfif = 0xe0;
-constexpr std::uint8_t kAdobe = 0xee; ///< tells whether three components are YCbCr or RGB
+constexpr std::uint8_t kAdobe = 0xee; ///< says whether three components are YCbCr or RGB
 constexpr std::uint8_t kApplicationLast = 0xef;
 constexpr std::uint8_t kComment = 0xfe;
 
-/// Each scan of a progressive picture may touch every pixel, so their number bounds the work of decoding.
-/// Encoders write about ten.
+/// A bound on the work of decoding: each scan may touch every pixel; encoders write about ten.
 constexpr int kMaxScans = 64;
 
 /// A marker and its segment's payload, as positions in the file.

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "renderer/core/stop.h"
+#include "renderer/image/image_container.h"
 #include "renderer/image/picture_decode.h"
-#include "renderer/image/png_chunks.h"
 #include "renderer/image/png_rows.h"
 
 namespace gnomon {
@@ -18,6 +18,7 @@ namespace {
 struct PngChunk {
   std::string_view type;
   EncodedBytes data;
+  EncodedBytes whole; ///< with length, type and checksum
 };
 
 /// What the file says of its pixels, and where they are.
@@ -34,22 +35,18 @@ std::vector<PngChunk> chunksOf(EncodedBytes file) {
     const std::size_t length = bigEndian(file, at, 4);
     const EncodedBytes left = file.subspan(at + 4);
     const EncodedBytes checked = left.first(std::min(left.size(), 4 + length));
-    chunks.push_back({{reinterpret_cast<const char*>(checked.data()), 4}, checked.subspan(4)});
+    const EncodedBytes whole = file.subspan(at, std::min(file.size() - at, kPngFrameBytes + length));
+    chunks.push_back({{reinterpret_cast<const char*>(checked.data()), 4}, checked.subspan(4), whole});
     at += kPngFrameBytes + length;
   }
   return chunks;
 }
 
-/// Of each chunk of the file; a chunk without one is wrong.
-bool checksumsHold(EncodedBytes file) {
-  for (std::size_t at = kPngSignature.size(); at < file.size();) {
-    const std::size_t length = bigEndian(file, at, 4);
-    if (file.size() - at < kPngFrameBytes + length) return false;
-    const EncodedBytes checked = file.subspan(at + 4, 4 + length);
-    if (libdeflate_crc32(0, checked.data(), checked.size()) != bigEndian(file, at + 8 + length, 4)) return false;
-    at += kPngFrameBytes + length;
-  }
-  return true;
+/// A chunk without a checksum is wrong.
+bool checksumHolds(const PngChunk& chunk) {
+  const std::size_t length = bigEndian(chunk.whole, 0, 4);
+  return chunk.whole.size() == kPngFrameBytes + length &&
+         libdeflate_crc32(0, chunk.whole.data() + 4, 4 + length) == bigEndian(chunk.whole, 8 + length, 4);
 }
 
 /// The spec's table 11.1.
@@ -144,9 +141,10 @@ std::string unreadablePng(EncodedBytes essential) {
 }
 
 std::string decodePng(EncodedBytes essential, DecodedRows& to) {
-  const std::string checksums = checksumsHold(essential) ? "" : "a checksum is wrong";
+  const std::vector<PngChunk> chunks = chunksOf(essential);
+  const std::string checksums = std::ranges::all_of(chunks, checksumHolds) ? "" : "a checksum is wrong";
   Contents contents;
-  read(chunksOf(essential), contents);
+  read(chunks, contents);
   const auto width = static_cast<std::size_t>(to.size().width);
   const auto height = static_cast<std::size_t>(to.size().height);
   const std::size_t bits = contents.pixels.bits();

@@ -1,5 +1,3 @@
-#include "renderer/image/png_encode.h"
-
 #include <algorithm>
 #include <array>
 #include <libdeflate.h>
@@ -11,7 +9,8 @@
 #include "renderer/core/parallel.h"
 #include "renderer/core/vectors.h"
 #include "renderer/image/deflate_stripe.h"
-#include "renderer/image/png_chunks.h"
+#include "renderer/image/image_container.h"
+#include "renderer/image/picture_encode.h"
 
 namespace gnomon {
 namespace {
@@ -76,9 +75,8 @@ GNOMON_FOR_EACH_INSTRUCTION_SET void subtract(const std::uint8_t* a, const std::
   for (std::size_t i = 0; i < count; ++i) differences[i] = static_cast<std::uint8_t>(a[i] - b[i]);
 }
 
-/// The row's filter type and its filtered samples. `above`: the row above within the stripe, or null. `pixel`: bytes of
-/// one.
-/// Of Sub and Up the one with the smaller sum of absolute differences: the other types of filter gain nothing here.
+/// The row's filter type (of Sub and Up the one with the smaller sum of absolute differences) and its filtered samples.
+/// `above`: the row above within the stripe, or null. `pixel`: bytes.
 void filterRow(Row row, const std::uint8_t* above, std::size_t pixel, bool filtering, std::uint8_t* filtered) {
   const std::uint8_t* samples = row.data();
   const std::size_t rest = row.size() - pixel;
@@ -118,6 +116,36 @@ Bytes headerOf(const PngFormat& format) {
   const std::uint8_t colorType = format.channelCount == 1 ? kGrey : format.channelCount == 3 ? kRgb : kRgba;
   append(header, std::array<std::uint8_t, 5>{static_cast<std::uint8_t>(format.bits), colorType, 0, 0, 0});
   return header;
+}
+
+/// The stripe of the pixels first..last.
+PngStripe stripeOf(const PngFormat& format, const std::vector<std::uint8_t>& pixels, std::size_t first,
+                   std::size_t last) {
+  return pngStripe(format, Row(pixels).subspan(first, last - first));
+}
+
+PngStripe stripeOf(const PngFormat& format, const std::vector<std::uint16_t>& pixels, std::size_t first,
+                   std::size_t last) {
+  Bytes rows;
+  rows.reserve(2 * (last - first));
+  for (std::size_t i = first; i < last; ++i) {
+    rows.push_back(static_cast<std::uint8_t>(pixels[i] >> 8));
+    rows.push_back(static_cast<std::uint8_t>(pixels[i]));
+  }
+  return pngStripe(format, rows);
+}
+
+template <class Number>
+Result<Bytes> encodePixels(const PngFormat& format, const std::vector<Number>& pixels) {
+  if (format.rowBytes() * format.stripeRows() > kMaxStripeBytes) {
+    return Problem{ProblemCode::internal, "", "The image is too wide for a PNG."};
+  }
+  const std::size_t stripe = format.rowBytes() / sizeof(Number) * format.stripeRows();
+  std::vector<PngStripe> stripes(format.stripeCount());
+  forEachPiece(pixels.size(), stripe, [&](std::size_t first, std::size_t last) {
+    stripes[first / stripe] = stripeOf(format, pixels, first, last);
+  });
+  return assemblePng(format, stripes);
 }
 
 } // namespace
@@ -164,45 +192,11 @@ Bytes assemblePng(const PngFormat& format, std::span<const PngStripe> stripes) {
   return file;
 }
 
-namespace {
-
-/// The stripe of the pixels first..last.
-PngStripe stripeOf(const PngFormat& format, const std::vector<std::uint8_t>& pixels, std::size_t first,
-                   std::size_t last) {
-  return pngStripe(format, Row(pixels).subspan(first, last - first));
-}
-
-PngStripe stripeOf(const PngFormat& format, const std::vector<std::uint16_t>& pixels, std::size_t first,
-                   std::size_t last) {
-  Bytes rows;
-  rows.reserve(2 * (last - first));
-  for (std::size_t i = first; i < last; ++i) {
-    rows.push_back(static_cast<std::uint8_t>(pixels[i] >> 8));
-    rows.push_back(static_cast<std::uint8_t>(pixels[i]));
-  }
-  return pngStripe(format, rows);
-}
-
-template <class Number>
-Result<Bytes> encodePixels(const PngFormat& format, const std::vector<Number>& pixels) {
-  if (format.rowBytes() * format.stripeRows() > kMaxStripeBytes) {
-    return Problem{ProblemCode::internal, "", "The image is too wide for a PNG.", "", ""};
-  }
-  const std::size_t stripe = format.rowBytes() / sizeof(Number) * format.stripeRows();
-  std::vector<PngStripe> stripes(format.stripeCount());
-  forEachPiece(pixels.size(), stripe, [&](std::size_t first, std::size_t last) {
-    stripes[first / stripe] = stripeOf(format, pixels, first, last);
-  });
-  return assemblePng(format, stripes);
-}
-
-} // namespace
-
 Result<Bytes> encodePng(const Image& image, int level) {
   const auto* bytes = pixelsAs<std::uint8_t>(image);
   const auto* words = pixelsAs<std::uint16_t>(image);
   if ((!bytes && !words) || !isPicture(image)) {
-    return Problem{ProblemCode::internal, "", "A PNG needs an image of 8 or 16 bits and 1, 3 or 4 channels.", "", ""};
+    return Problem{ProblemCode::internal, "", "A PNG needs an image of 8 or 16 bits and 1, 3 or 4 channels."};
   }
   if (level < 0 || level > 9) {
     return Problem{ProblemCode::invalidValue, "", "The PNG compression level is out of range.", "0..9",

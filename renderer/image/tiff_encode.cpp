@@ -1,5 +1,3 @@
-#include "renderer/image/tiff_encode.h"
-
 #include <algorithm>
 #include <array>
 #include <cstdarg>
@@ -14,8 +12,9 @@
 
 #include "renderer/core/parallel.h"
 #include "renderer/core/stop.h"
-#include "renderer/image/associated_alpha.h"
 #include "renderer/image/deflate_stripe.h"
+#include "renderer/image/image.h"
+#include "renderer/image/picture_encode.h"
 
 namespace gnomon {
 namespace {
@@ -140,7 +139,7 @@ bool writeStrips(TIFF* tiff, std::span<const std::uint8_t> pixels, std::size_t s
 
 Result<Bytes> encodeTiff(const Image& image) {
   const auto* floats = pixelsAs<float>(image);
-  if (!floats) return Problem{ProblemCode::internal, "", "A TIFF needs a float image of its own size.", "", ""};
+  if (!floats) return Problem{ProblemCode::internal, "", "A TIFF needs a float image of its own size."};
   const std::size_t row = static_cast<std::size_t>(image.width) * image.channels.size();
   constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max() / 16 * 15; // deflate may add a little
   if (floats->size() * sizeof(float) > kMost) {
@@ -161,7 +160,7 @@ Result<Bytes> encodeTiff(const Image& image) {
                        TIFFWriteDirectory(tiff.get()) == 1;
   tiff.reset();
   if (written && file.message.empty()) return std::move(file.bytes);
-  return Problem{ProblemCode::internal, "", "The TIFF could not be written: " + file.message + ".", "", ""};
+  return Problem{ProblemCode::internal, "", "The TIFF could not be written: " + file.message + "."};
 }
 
 } // namespace gnomon

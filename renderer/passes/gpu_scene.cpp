@@ -6,7 +6,7 @@
 
 #include "renderer/device/shader_data.h"
 #include "renderer/prepare/frame_geometry.h"
-#include "renderer/scene/texture_images.h"
+#include "renderer/scene/texture_reads.h"
 #include "renderer/shaders/shared/mask_coverage.h"
 
 namespace gnomon {

@@ -56,7 +56,7 @@ struct GpuScene {
 std::shared_ptr<const GpuMeshes> uploadMeshes(const Scene& scene);
 std::shared_ptr<const GpuTextures> uploadTextures(const Scene& scene);
 
-/// `meshes` and `textures`: of this scene, or of one where they are the same (same_surfaces.h).
+/// `meshes` and `textures`: of this scene, or of one where they are the same (shared_content.h).
 GpuScene uploadScene(const Scene& scene, std::shared_ptr<const GpuMeshes> meshes,
                      std::shared_ptr<const GpuTextures> textures);
 

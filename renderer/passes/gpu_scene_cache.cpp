@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "renderer/scene/same_surfaces.h"
+#include "renderer/scene/shared_content.h"
 
 namespace gnomon {
 

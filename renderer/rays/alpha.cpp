@@ -2,8 +2,7 @@
 
 #include "renderer/rays/tree.h"
 #include "renderer/scene/mask_coverage.h"
-#include "renderer/scene/texture_alpha.h"
-#include "renderer/scene/texture_images.h"
+#include "renderer/scene/texture_reads.h"
 
 namespace gnomon {
 namespace {

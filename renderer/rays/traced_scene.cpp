@@ -8,7 +8,7 @@
 #include "renderer/core/aabb.h"
 #include "renderer/core/parallel.h"
 #include "renderer/rays/tree.h"
-#include "renderer/scene/texture_images.h"
+#include "renderer/scene/texture_reads.h"
 
 namespace gnomon {
 namespace {

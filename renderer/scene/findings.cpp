@@ -38,7 +38,7 @@ void Findings::tooLarge(std::string pointer, std::string detail, std::string lim
 }
 
 void Findings::unsupported(std::string pointer, std::string detail) {
-  refuse({ProblemCode::unsupportedFeature, std::move(pointer), std::move(detail), {}, {}});
+  refuse({ProblemCode::unsupportedFeature, std::move(pointer), std::move(detail)});
 }
 
 void Findings::take(Problems problems) {

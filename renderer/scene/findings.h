@@ -15,9 +15,8 @@ enum class Conformance {
   strict    ///< it is refused
 };
 
-/// A kind of fault that has one sensible meaning, and what is done about it. Both are parts of sentences, without a
-/// place:
-/// {"A number is beyond its limit by rounding", "it is brought to the limit"}.
+/// A kind of fault and its remedy, as parts of a sentence: {"A number is beyond its limit by rounding", "it is brought
+/// to the limit"}.
 struct Repair {
   std::string fault;
   std::string remedy;
@@ -26,8 +25,7 @@ struct Repair {
   bool operator==(const Repair&) const = default;
 };
 
-/// What reading a file turned up: problems, which refuse it, and warnings, which tell what is drawn differently.
-/// Both are capped, so that a hostile file can't make its report larger than itself.
+/// Problems, which refuse a file, and warnings, which say what is drawn differently; both capped.
 class Findings {
  public:
   explicit Findings(Conformance conformance = Conformance::repaired) : conformance_(conformance) {}
@@ -42,14 +40,13 @@ class Findings {
   /// One sentence; said once, however often it is reported.
   void warn(std::string sentence);
 
-  /// The file violates glTF at `pointer` and is safe to read: repaired, with one warning for each kind, which counts
-  /// the places and names the first; a problem where the file has to conform. `limit` and `actual`: as in a problem.
+  /// A violation that is safe to read: one warning a kind, which counts the places and names the first; a problem where
+  /// the file has to conform.
   void repair(const Repair& kind, const std::string& pointer, const std::string& limit = {},
               const std::string& actual = {});
 
-  /// What was found in a part of the file: its repairs are taken, and its problems become repairs by which the part is
-  /// left out, but for limits, which refuse. `remedy`, `losesTriangles`: as in a Repair. The first of the problems;
-  /// empty = it is sound.
+  /// Takes the findings of a part that is left out: its problems become repairs with `remedy`, but for limits, which
+  /// refuse. Returns the first problem; empty = the part is sound.
   std::string leaveOut(Findings part, const std::string& remedy, bool losesTriangles = false);
 
   /// Whether a repair lost triangles.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "protocol/base/result.h"
+#include "protocol/report/node_list.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {
@@ -31,5 +32,8 @@ class NodeFinder {
   const Scene& scene_;
   std::optional<std::unordered_multimap<std::string_view, std::size_t>> byName_; ///< made by the first name
 };
+
+/// A page of the file's nodes. It ends early where their names are long.
+NodeList nodesOf(const Scene& scene, const NodePage& page);
 
 } // namespace gnomon

@@ -7,23 +7,20 @@
 
 #include "protocol/base/bytes.h"
 #include "renderer/core/grid_file_kind.h"
-#include "renderer/scene/animation/animations.h"
+#include "renderer/scene/animation/motion.h"
 #include "renderer/scene/animation/posed_scene.h"
 #include "renderer/scene/decode/draco_primitives.h"
 #include "renderer/scene/document/gltf_document.h"
 #include "renderer/scene/findings.h"
-#include "renderer/scene/geometry/accessor_checks.h"
+#include "renderer/scene/geometry/accessor_view.h"
 #include "renderer/scene/geometry/mesh_build.h"
 #include "renderer/scene/geometry/mesh_source.h"
 #include "renderer/scene/graph/attachments.h"
 #include "renderer/scene/graph/node_tree.h"
-#include "renderer/scene/graph/scene_roots.h"
 #include "renderer/scene/graph/scene_views.h"
-#include "renderer/scene/materials/image_loading.h"
 #include "renderer/scene/materials/materials.h"
-#include "renderer/scene/materials/uv_sets.h"
 #include "renderer/scene/posing/deformation.h"
-#include "renderer/scene/posing/posed_nodes.h"
+#include "renderer/scene/posing/pose.h"
 #include "renderer/scene/summary.h"
 
 namespace gnomon {
@@ -93,7 +90,9 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   addVariantScenes(limits, *scene, findings);
   if (findings.refused()) return findings.takeProblems();
   if (!deformation->posed.empty()) scene->deformation = std::move(deformation);
-  scene->nodes = namedNodes(model);
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    scene->nodes.push_back({model.nodes[i].name, tree.parents[i]});
+  }
   scene->leftOutCameras = leftOutCameras(model);
   scene->images = loadImages(*document, limits, scene->materials, findings, known);
   if (findings.refused()) return findings.takeProblems();
@@ -116,9 +115,9 @@ Result<std::shared_ptr<const Scene>> loadGltf(const SceneBundle& bundle, const L
   try {
     return load(bundle, limits, id, known);
   } catch (const std::bad_alloc&) {
-    return Problem{ProblemCode::tooLarge, {}, "There is not enough memory for this scene.", {}, {}};
+    return Problem{ProblemCode::tooLarge, {}, "There is not enough memory for this scene."};
   } catch (const std::exception&) {
-    return Problem{ProblemCode::internal, {}, "The scene could not be loaded.", {}, {}};
+    return Problem{ProblemCode::internal, {}, "The scene could not be loaded."};
   }
 }
 

@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "renderer/core/parallel.h"
-#include "renderer/scene/texture_alpha.h"
-#include "renderer/scene/texture_images.h"
+#include "renderer/scene/texture_reads.h"
 
 namespace gnomon {
 namespace {

@@ -8,16 +8,12 @@
 #include <span>
 #include <vector>
 
-#include "renderer/scene/alpha_plane.h"
 #include "renderer/scene/scene.h"
+#include "renderer/scene/scene_image.h"
 
-/// Masks seen from afar. A smaller level holds means, and a cutoff applied to means opens or closes holes that it
-/// cannot tell apart: leaves thin out and vanish. So the eye does not compare what it reads from smaller levels with
-/// the cutoff, but with what the level has: of the places of a level as many are kept as of the texture itself, those
-/// of the highest alpha (Castano, "Computing Alpha Mipmaps", 2010, scales alpha for one cutoff to that end). Here that
-/// is done for every cutoff and every factor at once, by ranks: a place of a level is kept if the share of the level
-/// below it is no less than the share of the texture below the cutoff. Where many places have one alpha, as all do once
-/// a level has lost its holes, a hash of the place decides among them.
+/// Masks seen from afar: a cutoff applied to the means of a smaller level would open or close holes. So of a level's
+/// places as many are kept as of the texture, those of the highest alpha (cf. Castano, "Computing Alpha Mipmaps",
+/// 2010), for every cutoff and factor at once: by ranks. Among places of equal alpha a hash of the place decides.
 namespace gnomon {
 
 /// A place of a texture that is read for the eye.
@@ -41,8 +37,8 @@ class MaskCoverage {
   /// Whether the surface is there. `factor`: what the texture's alpha is multiplied by.
   bool keeps(const MaskPlace& place, double factor, double cutoff) const;
 
-  /// Rows of kRow numbers, two a level and one for the last: row i of the texture halved i / 2 times. Number k is the
-  /// share of places whose alpha, times 255 and rounded, is less than k. Row 0 is read as what is seen larger is.
+  /// Rows of kRow numbers: row i of the texture halved i / 2 times; number k is the share of places whose alpha * 255,
+  /// rounded, is less than k.
   std::span<const float> table() const { return table_; }
   int rows() const { return static_cast<int>(table_.size() / kRow); }
   bool mixesLevels() const { return mixesLevels_; }
@@ -54,12 +50,10 @@ class MaskCoverage {
   glm::ivec2 size_;
 };
 
-/// One a material of a scene; null where no coverage is lost: for opaque ones, and where alpha is not a texture's or
-/// its levels are not read.
+/// One a material of a scene; null where no coverage is lost.
 using MaskCoverages = std::vector<std::shared_ptr<const MaskCoverage>>;
 
-/// Those of scenes that share their images, each made when it is first needed; any thread. Materials that filter one
-/// image in the same way share one.
+/// The coverages of scenes that share their images, each made once, on first use; any thread.
 class KeptCoverages {
  public:
   /// For the materials of all that a view places. REQUIRES: the images that they read alpha of are decoded.

@@ -56,8 +56,7 @@ struct LitGroups {
   bool operator==(const LitGroups&) const = default;
 };
 
-/// Visible surfaces that agree in layers and in whether they receive shadows are one group, so that a pixel only has to
-/// know its group.
+/// Groups of visible surfaces that agree in layers and in whether they receive shadows.
 struct ReceiverGroups {
   std::vector<std::uint8_t> ofInstance; ///< index of the group, one an instance of the view; empty = one group for all
   std::vector<LitGroups> ofLight;       ///< one a light; empty = every light lights and shadows all

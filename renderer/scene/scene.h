@@ -55,8 +55,7 @@ struct Primitive {
 /// The numbers are those of glTF and OpenGL.
 enum class Wrap { repeat = 10497, clampToEdge = 33071, mirroredRepeat = 33648 };
 
-/// Which texels are mixed where a texture is shown smaller than it is: those of one level, and which levels. Numbered
-/// so, too.
+/// The minification filter, numbered as in OpenGL.
 enum class MinFilter {
   nearest = 9728,
   linear = 9729,
@@ -148,7 +147,7 @@ auto texturesOf(SomeMaterial& material) {
                     &material.emissive};
 }
 
-/// A node of the file, whichever scene it belongs to.
+/// A node of the file.
 struct SceneNode {
   std::string name;
   int parent = -1; ///< index into Scene::nodes; -1 = a root
@@ -218,8 +217,7 @@ struct Deformation;
 struct Motion;
 class PoseCache;
 
-/// A loaded glTF file, shared between threads: immutable but for `poses` and `images`, which lock
-/// themselves. At least one scene.
+/// A loaded glTF file, shared between threads: immutable but for `poses` and `images`, which lock themselves.
 struct Scene {
   SharedVector<glm::vec3> positions;         ///< of all primitives
   SharedVector<VertexAttributes> attributes; ///< parallel to positions

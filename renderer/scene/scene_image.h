@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -10,12 +11,53 @@
 #include "protocol/base/result.h"
 #include "renderer/image/image.h"
 #include "renderer/image/image_codec.h"
-#include "renderer/scene/alpha_plane.h"
 
 namespace gnomon {
 
-/// A picture of a scene's file, whose size and structure have been checked. Its pixels are decoded when they are first
-/// asked for, from any thread.
+/// The alpha of a picture, a byte a texel, for readers of a few texels here and there: squares of 8 x 8 lie together.
+class AlphaPlane {
+ public:
+  explicit AlphaPlane(const Image& image); ///< REQUIRES: 8-bit RGBA
+
+  /// The next smaller level: half the size, rounded down but to no less than 1; means of the texels.
+  AlphaPlane halved() const;
+
+  int width() const { return width_; } ///< texels
+  int height() const { return height_; }
+  /// REQUIRES: a texel of the picture.
+  std::uint8_t at(std::size_t column, std::size_t row) const { return texels_[placeOf(column, row)]; }
+  std::size_t bytes() const { return texels_.size(); }
+
+ private:
+  static constexpr std::size_t kSide = 8;
+
+  AlphaPlane(int width, int height);
+
+  static std::size_t squaresOf(int texels) { return (static_cast<std::size_t>(texels) + kSide - 1) / kSide; }
+  std::size_t placeOf(std::size_t column, std::size_t row) const {
+    return (row / kSide * squaresAcross_ + column / kSide) * kSide * kSide + row % kSide * kSide + column % kSide;
+  }
+
+  int width_, height_;
+  std::size_t squaresAcross_;
+  std::vector<std::uint8_t> texels_; ///< of whole squares
+};
+
+/// The same in all of a texture's levels, the picture's own first, the last of one texel.
+class AlphaLevels {
+ public:
+  explicit AlphaLevels(AlphaPlane largest);
+
+  const AlphaPlane& largest() const { return levels_.front(); }
+  const AlphaPlane& of(std::size_t level) const { return levels_[level]; } ///< REQUIRES: level < count()
+  std::size_t count() const { return levels_.size(); }
+  std::size_t bytes() const;
+
+ private:
+  std::vector<AlphaPlane> levels_;
+};
+
+/// A checked picture of a scene's file, decoded on first use, from any thread.
 class SceneImage {
  public:
   /// `pointer`: its place in the file, for problems.
@@ -28,8 +70,8 @@ class SceneImage {
   /// The most that it takes: its pixels, or its file where that is larger.
   std::uint64_t bytes() const { return bytes_; }
 
-  /// Decodes it now, if that has not been done, and keeps the pixels instead of the encoded bytes. A problem, at its
-  /// place in the file, where there is no memory for it.
+  /// Decodes it unless that is done, and keeps the pixels instead of the encoded bytes. A problem where memory is
+  /// short.
   Status decode() const;
   /// 8-bit RGBA. REQUIRES: decode() gives no problem.
   const Image& pixels() const { return *decoded(); }
@@ -40,8 +82,7 @@ class SceneImage {
   /// Their alpha: the same for all who hold it. REQUIRES: as pixels(). Throws std::bad_alloc.
   std::shared_ptr<const AlphaLevels> alpha() const;
 
-  /// The same for a caller who needs them but once, as decodeRows() gives them: decoded and not kept, or all at once of
-  /// those that are kept.
+  /// The same without keeping the pixels, in pieces as of decodeRows(), or all at once where they are kept.
   Status readRows(int atOnce, const TakeRows& take) const;
 
  private:

@@ -1,7 +1,7 @@
-#include "renderer/video/webm.h"
-
 #include <bit>
 #include <cmath>
+
+#include "renderer/video/video_file.h"
 
 namespace gnomon {
 namespace {

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "protocol/base/result.h"
@@ -30,8 +32,15 @@ Result<std::size_t> voxelCount(std::int64_t x, std::int64_t y, std::int64_t z);
 /// The first value that is no finite number is a problem with its place; the grid with its range otherwise.
 Result<DensityGrid> requireFinite(DensityGrid grid);
 
-/// Trilinear between the eight nearest centres; the outermost centres' values go on beyond them. `unit`: 0..1 in the
-/// cube, and brought there.
+/// Trilinear between the eight nearest centres; `unit`: 0..1 in the cube, and clamped to it.
 double valueAt(const DensityGrid& grid, const glm::dvec3& unit);
+
+/// A grid from a NumPy or an OpenVDB file, by its first bytes. `name`: of the grid; empty = the only float grid, or
+/// that of a NumPy file, which has no name.
+Result<DensityGrid> readGridFile(std::span<const std::uint8_t> file, const std::string& name = {});
+
+/// A grid from a .npy file, versions 1 to 3: three axes (z, y, x) in C order, of little-endian float32 or float16 or of
+/// uint8 (0..255).
+Result<DensityGrid> readNpy(std::span<const std::uint8_t> file);
 
 } // namespace gnomon

@@ -5,11 +5,48 @@
 #include <memory>
 #include <vector>
 
+#include "protocol/base/result.h"
+#include "protocol/spec/limits.h"
 #include "renderer/volume/density_grid.h"
-#include "renderer/volume/transfer_function.h"
 #include "renderer/volume/volume_space.h"
 
 namespace gnomon {
+
+inline constexpr std::size_t kMaxTransferPoints = kLimits.maxTransferStops;
+inline constexpr double kMaxExtinction = 1e6; ///< per metre
+
+/// What a medium does to light at one place.
+struct Matter {
+  glm::dvec3 color{0};   ///< the share of each component that is scattered of what is taken away, 0..1
+  double extinction = 0; ///< what is taken away, per metre, >= 0
+
+  bool operator==(const Matter&) const = default;
+};
+
+struct TransferPoint {
+  double value = 0; ///< of the grid
+  Matter matter;
+
+  bool operator==(const TransferPoint&) const = default;
+};
+
+/// Piecewise linear between its points; the first and last go on beyond them. Values increase.
+struct TransferFunction {
+  std::vector<TransferPoint> points;
+
+  bool operator==(const TransferFunction&) const = default;
+};
+
+/// A function of these points, or its problems at "/INDEX/value", "/INDEX/color/0" or "/INDEX/extinction".
+Result<TransferFunction> makeTransferFunction(std::vector<TransferPoint> points);
+
+Matter matterOf(const TransferFunction& function, double value);
+
+/// The largest extinction of any value from `low` to `high`. REQUIRES: low <= high.
+double largestExtinction(const TransferFunction& function, double low, double high);
+
+/// The largest extinction of any value.
+double largestExtinction(const TransferFunction& function);
 
 inline constexpr int kBrickSide = 8; ///< voxels
 
@@ -29,8 +66,6 @@ struct Medium {
   bool receiveShadow = true; ///< from surfaces and media, itself among them
   Bricks bricks{};
 };
-
-Bricks bricksOf(const DensityGrid& grid, const TransferFunction& function);
 
 Medium makeMedium(std::shared_ptr<const DensityGrid> grid, TransferFunction function, const VolumeSpace& space);
 

@@ -80,7 +80,7 @@ StartVdb& starter() {
 }
 
 Problem unusable(const std::string& why) {
-  return {ProblemCode::internal, "", "The reader of VDB files is not usable: " + why + ".", "", ""};
+  return {ProblemCode::internal, "", "The reader of VDB files is not usable: " + why + "."};
 }
 
 Descriptor memoryFileOf(std::span<const std::uint8_t> bytes) {
@@ -126,14 +126,14 @@ Problem problemOf(int outcome, const std::string& names) {
     case vdb::noSuchGrid:
       return {ProblemCode::invalidValue, "",
               "The .vdb file has no float grid of this name, or one of several must be named.",
-              names.empty() ? "none" : names, ""};
+              names.empty() ? "none" : names};
     case vdb::empty:
-      return {ProblemCode::invalidValue, "", "The grid of the .vdb file has no active voxel.", "", ""};
+      return {ProblemCode::invalidValue, "", "The grid of the .vdb file has no active voxel."};
     case vdb::tooLarge:
       return {ProblemCode::tooLarge, "", "The .vdb file takes too much memory to read.",
-              std::to_string(vdb::kMaxMemoryBytes) + " bytes", ""};
+              std::to_string(vdb::kMaxMemoryBytes) + " bytes"};
     default:
-      return {ProblemCode::malformed, "", "The .vdb file is no VDB file, or it is broken.", "", ""};
+      return {ProblemCode::malformed, "", "The .vdb file is no VDB file, or it is broken."};
   }
 }
 
@@ -141,7 +141,7 @@ Problem problemOf(int outcome, const std::string& names) {
 Problem problemOf(Received received, VdbProcess& process, std::chrono::milliseconds deadline) {
   if (received == Received::late) {
     return {ProblemCode::tooLarge, "", "The .vdb file takes too long to read.",
-            std::to_string(deadline.count()) + " ms", ""};
+            std::to_string(deadline.count()) + " ms"};
   }
   const int status = process.wait();
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : vdb::broken;

@@ -29,21 +29,21 @@ class VdbProcess {
 
 using VdbPrograms = std::span<const std::filesystem::path>;
 
-/// Starts the first of `programs` that exists with a grid's name as argument, `input` as standard input and `output` as
-/// standard output, and nothing else of this process. nullptr where that fails. Any thread.
+/// Starts the first of `programs` that exists with a grid's name as argument, `input` as stdin, `output` as stdout, and
+/// no other file. nullptr on failure. Any thread.
 using StartVdb =
     std::function<std::unique_ptr<VdbProcess>(VdbPrograms programs, const std::string& name, int input, int output)>;
 
 /// By a child of this process.
 std::unique_ptr<VdbProcess> startVdbAsChild(VdbPrograms programs, const std::string& name, int input, int output);
 
-/// How the program is started from now on: for a process that is going to give up files and children. Call it before
-/// that, and before grids are read.
+/// How the program is started from now on; call it before the process gives up files and children, and before grids are
+/// read.
 void startVdbBy(StartVdb start);
 
-/// A float grid of an OpenVDB file: the box of its active voxels, with the background's value where there is none.
-/// `name`: that of the grid; empty = the only float grid. The first of `programs` that exists reads it, as a process of
-/// its own, whose memory and time are bounded. Safe from any thread.
+/// A float grid of an OpenVDB file: the box of its active voxels, with the background elsewhere. `name`: of the grid;
+/// empty = the only float grid. Read by the first of `programs` that exists, within bounds of memory and time. Any
+/// thread.
 Result<DensityGrid> readVdb(std::span<const std::uint8_t> file, const std::string& name, VdbPrograms programs,
                             std::chrono::milliseconds deadline = kVdbDeadline);
 

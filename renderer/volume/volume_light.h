@@ -1,12 +1,17 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <glm/glm.hpp>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "protocol/base/lru.h"
 #include "renderer/volume/medium.h"
 
 namespace gnomon {
@@ -21,15 +26,12 @@ struct Arrival {
   double surfaceVisibility = 1.0; ///< the share that surfaces between let through
 };
 
-/// What of a light arrives at a place of the world, which is a point's of the map (latticePlace). Called from any
-/// thread.
+/// What of a light arrives at `place`, a point of the map (latticePlace). Any thread.
 using ArrivalAt = std::function<Arrival(std::size_t point, const glm::dvec3& place)>;
 
-/// What the light is in a volume, and how much of it the volume takes: numbers at the points of a lattice that reaches
-/// from face to face of the unit cube, x fastest. Red, green and blue are the light that arrives, past surfaces and
-/// through all media, in shares of `fullLight`. Alpha is the mean extinction that this volume alone has between the
-/// point and where the ray towards the chosen light leaves it, in shares of `fullExtinction`: times the length of that
-/// way, which is known for each point, it gives what is taken without any error in a homogeneous medium.
+/// The light in a volume at the points of a lattice from face to face of the unit cube, x fastest. Red, green and blue:
+/// the light that arrives, in shares of `fullLight`. Alpha: the mean extinction that this volume alone has on the way
+/// towards the chosen light, in shares of `fullExtinction`, exact in a homogeneous medium.
 struct VolumeLight {
   glm::ivec3 size{0};            ///< points along each axis, at least 2
   std::vector<glm::vec4> texels; ///< 0..1, each number one that a 16-bit float can hold
@@ -54,15 +56,13 @@ std::size_t pointsOf(const glm::ivec3& size);
 /// Where a point of a map lies in the world; x fastest, then y, then z. REQUIRES: point < pointsOf(size).
 glm::dvec3 latticePlace(const VolumeSpace& space, const glm::ivec3& size, std::size_t point);
 
-/// By marching from each point to each light. A medium that casts no shadow dims nothing; one that receives none gets
-/// the light as through clear air and past no surface.
+/// By marching from each point to each light, through what casts shadows where the medium receives them.
 VolumeLight makeVolumeLight(const VolumeLightInput& input);
 
 /// What arrives at a place of the unit cube.
 glm::dvec3 lightAt(const VolumeLight& map, const glm::dvec3& unit);
 
-/// The share that the volume takes of the chosen light on its way to a place of the world: of all that is between there
-/// and the light, inside of the volume or not. 0 where the ray towards the light does not meet the volume.
+/// The share that the volume takes of the chosen light on its way to a place of the world; 0 where the ray misses it.
 double shareTaken(const Medium& medium, const VolumeLight& map, const glm::dvec3& place, const glm::dvec3& towards);
 
 struct MappedMedium {
@@ -70,8 +70,70 @@ struct MappedMedium {
   const VolumeLight* map = nullptr;
 };
 
-/// The share of the chosen light that all of these let through to a place of the world: what a surface there gets is
-/// this times what other surfaces let through.
+/// The share of the chosen light that all of these let through to a place of the world.
 double volumeVisibility(std::span<const MappedMedium> media, const glm::dvec3& place, const glm::dvec3& towards);
+
+/// The volumes of a frame, with the light in them.
+struct FrameVolumes {
+  std::vector<std::shared_ptr<const Medium>> media;
+  std::vector<std::shared_ptr<const VolumeLight>> lights; ///< parallel
+  int light = -1;        ///< the frame's light that they shade surfaces from, a directional one; -1 = none
+  glm::dvec3 towards{0}; ///< that light, unit length
+  glm::dvec3 ambient{0}; ///< radiance from all around
+
+  bool empty() const { return media.empty(); }
+  std::vector<MappedMedium> mapped() const {
+    std::vector<MappedMedium> all;
+    for (std::size_t i = 0; i < media.size(); ++i) all.push_back({media[i].get(), lights[i].get()});
+    return all;
+  }
+};
+
+/// Everything that a light map depends on. Grids are the same where they are the same object.
+class VolumeLightKey {
+ public:
+  /// `lights`, `casters`: texts that differ where the lights, or the surfaces that cast, differ.
+  VolumeLightKey(const VolumeLightInput& input, std::string lights, std::string casters);
+
+  bool operator==(const VolumeLightKey& other) const;
+
+ private:
+  struct Part {
+    std::weak_ptr<const DensityGrid> grid; ///< is not kept alive by a map
+    TransferFunction function;
+    VolumeSpace space;
+    bool castShadow = true;
+    bool receiveShadow = true;
+  };
+  static bool same(const Part& a, const Part& b);
+
+  std::vector<Part> media_;
+  std::size_t chosen_;
+  std::optional<glm::dvec3> towards_;
+  glm::ivec3 size_;
+  std::string lights_, casters_;
+};
+
+/// Light maps of earlier frames, the latest used ones, within a bound on their bytes. For one thread.
+class VolumeLightStore {
+ public:
+  struct Found {
+    std::shared_ptr<const VolumeLight> map;
+    bool made = false; ///< now; otherwise it was kept
+  };
+
+  explicit VolumeLightStore(std::size_t maxBytes) : maxBytes_(maxBytes) {}
+
+  bool holds(const VolumeLightKey& key) const;
+
+  /// The map of this key, by `make` where there is none.
+  Found mapOf(const VolumeLightKey& key, const std::function<VolumeLight()>& make);
+
+ private:
+  using Entry = std::pair<VolumeLightKey, std::shared_ptr<const VolumeLight>>;
+
+  std::size_t maxBytes_;
+  LruList<Entry> entries_;
+};
 
 } // namespace gnomon

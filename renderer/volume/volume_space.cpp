@@ -14,7 +14,7 @@ constexpr double kParallel = 1e-12;    // of a component of a direction, to the 
 constexpr double kFaceRounding = 1e-9; // of the cube's edge
 
 Problem badPlacement(const std::string& detail) {
-  return {ProblemCode::invalidValue, "", detail, "", ""};
+  return {ProblemCode::invalidValue, "", detail};
 }
 
 } // namespace

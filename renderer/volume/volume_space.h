@@ -5,6 +5,7 @@
 
 #include "protocol/base/result.h"
 #include "renderer/core/aabb.h"
+#include "renderer/core/camera_view.h"
 
 namespace gnomon {
 
@@ -24,8 +25,7 @@ struct Interval {
   double to = 0;
 };
 
-/// Where a volume is: the unit cube, moved, turned, stretched and sheared into the world. The corner is kept apart from
-/// the axes, so that digits are kept far from the origin.
+/// The place of a volume: an affine map of the unit cube; its corner is apart from the axes, for precision.
 struct VolumeSpace {
   glm::dvec3 corner{0}; ///< of the world: where the cube's 0, 0, 0 lies
   glm::dmat3 axes{1};   ///< columns: the cube's edges, metres
@@ -52,8 +52,22 @@ inline glm::dvec3 toWorld(const VolumeSpace& space, const glm::dvec3& unit) {
   return space.corner + space.axes * unit;
 }
 
-/// Where a ray is inside the closed unit cube, on both sides of its origin. A ray along a face that lies in it is
-/// inside.
+/// Where a ray is inside the closed unit cube, on both sides of its origin.
 std::optional<Interval> insideUnitCube(const Ray& unitRay);
+
+/// What a camera sees at one place of its picture: a ray through the world, and how view depths lie on it.
+struct ViewRay {
+  Ray ray;
+  double metresPerDepth = 1; ///< along the ray, for each metre of view depth
+  Interval seen{};           ///< metres along the ray between the near and the far plane
+};
+
+/// `ndc`: the place on the picture, -1..1, y up; an orthographic ray starts at depth 0.
+inline ViewRay viewRayAt(const CameraView& view, const glm::dvec2& ndc) {
+  const glm::dvec3 start = pointAt(view, ndc, 0);
+  const glm::dvec3 perDepth = pointAt(view, ndc, 1) - start;
+  const double length = glm::length(perDepth);
+  return {{view.eye + start, perDepth / length}, length, {length * view.near, length * view.far}};
+}
 
 } // namespace gnomon

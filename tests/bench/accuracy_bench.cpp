@@ -10,7 +10,7 @@
 
 #include "protocol/evaluation/sweeps.h"
 #include "protocol/json/json_codec.h"
-#include "renderer/charts/evaluation_chart.h"
+#include "renderer/charts/charts.h"
 #include "renderer/evaluation/evaluate.h"
 #include "renderer/render.h"
 #include "tests/bench/gathered_scenes.h"

@@ -8,8 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "renderer/image/jpeg_encode.h"
-#include "renderer/image/png_encode.h"
+#include "renderer/image/picture_encode.h"
 
 namespace gnomon::bench {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "renderer/image/image_codec.h"
-#include "renderer/image/png_encode.h"
+#include "renderer/image/picture_encode.h"
 #include "tests/support/files.h"
 
 namespace gnomon::bench {

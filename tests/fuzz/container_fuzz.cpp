@@ -1,5 +1,4 @@
 // A GLB's header and chunks, and the JSON in them against glTF's schema.
-#include "renderer/scene/checks/extension_gate.h"
 #include "renderer/scene/checks/gltf_schema.h"
 #include "renderer/scene/container/json_text.h"
 #include "renderer/scene/container/model_container.h"

@@ -1,7 +1,7 @@
 // Density grids as they come in NumPy's files.
 #include <cmath>
 
-#include "renderer/volume/npy.h"
+#include "renderer/volume/density_grid.h"
 #include "tests/fuzz/sound_problems.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

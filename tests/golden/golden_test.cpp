@@ -7,7 +7,7 @@
 
 #include "protocol/json/json_codec.h"
 #include "renderer/image/image_codec.h"
-#include "renderer/image/png_encode.h"
+#include "renderer/image/picture_encode.h"
 #include "renderer/render.h"
 #include "tests/support/compare_images.h"
 #include "tests/support/files.h"

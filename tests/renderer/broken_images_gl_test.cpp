@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "protocol/spec/enum_rows.h"
-#include "renderer/image/png_encode.h"
+#include "renderer/image/picture_encode.h"
 #include "tests/renderer/frame_fixture.h"
 
 namespace gnomon {

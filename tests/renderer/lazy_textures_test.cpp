@@ -4,7 +4,7 @@
 #include <random>
 
 #include "protocol/json/json_codec.h"
-#include "renderer/image/png_encode.h"
+#include "renderer/image/picture_encode.h"
 #include "renderer/render.h"
 #include "tests/support/glb_builder.h"
 

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "protocol/json/json_codec.h"
-#include "renderer/image/png_encode.h"
+#include "renderer/image/picture_encode.h"
 #include "tests/renderer/frame_fixture.h"
 
 namespace gnomon {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "renderer/image/png_encode.h"
+#include "renderer/image/picture_encode.h"
 #include "tests/renderer/frame_fixture.h"
 #include "tests/support/webp_builder.h"
 

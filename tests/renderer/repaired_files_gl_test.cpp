@@ -6,7 +6,7 @@
 #include <rapidcheck/gtest.h>
 #include <set>
 
-#include "renderer/image/png_encode.h"
+#include "renderer/image/picture_encode.h"
 #include "tests/renderer/frame_fixture.h"
 
 namespace gnomon {

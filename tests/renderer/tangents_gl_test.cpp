@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "renderer/image/png_encode.h"
+#include "renderer/image/picture_encode.h"
 #include "renderer/scene/scene.h"
 #include "tests/renderer/frame_fixture.h"
 #include "tests/support/compare_images.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/image/png_encode.h"
+#include "renderer/image/picture_encode.h"
 
 namespace gnomon::testing {
 namespace {

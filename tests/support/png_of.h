@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderer/image/png_encode.h"
+#include "renderer/image/picture_encode.h"
 #include "renderer/render.h"
 
 namespace gnomon::testing {

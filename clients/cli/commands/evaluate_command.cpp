@@ -12,8 +12,7 @@
 #include "clients/cli/spec/spec_arguments.h"
 #include "clients/cli/terminal/result_text.h"
 #include "protocol/evaluation/evaluation_json.h"
-#include "renderer/charts/evaluation_chart.h"
-#include "renderer/charts/evaluation_csv.h"
+#include "renderer/charts/charts.h"
 
 namespace gnomon::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "renderer/scene/texture_images.h"
+#include "renderer/scene/texture_reads.h"
 
 namespace gnomon::cpu {
 

@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "renderer/cpu/surface/texel_means.h"
-#include "renderer/image/decoded_rows.h"
+#include "renderer/image/picture_decode.h"
 
 namespace gnomon::cpu {
 std::size_t evenLevels(const ImageSize& size) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "renderer/core/srgb.h"
-#include "renderer/image/between_texels.h"
+#include "renderer/image/image.h"
 
 namespace gnomon::cpu {
 namespace {

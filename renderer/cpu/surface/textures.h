@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "renderer/cpu/surface/texture.h"
-#include "renderer/scene/texture_images.h"
+#include "renderer/scene/texture_reads.h"
 
 namespace gnomon::cpu {
 

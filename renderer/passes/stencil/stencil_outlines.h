@@ -7,7 +7,7 @@
 
 #include "protocol/spec/scene_options.h"
 #include "renderer/core/aabb.h"
-#include "renderer/scene/mesh_edges.h"
+#include "renderer/scene/geometry/welding.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {

@@ -9,7 +9,7 @@
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/survey/survey_pass.h"
 #include "renderer/passes/views/surface_pass.h"
-#include "renderer/volume/frame_volumes.h"
+#include "renderer/volume/volume_light.h"
 
 namespace gnomon {
 

@@ -1,18 +1,27 @@
-#include "renderer/scene/animation/animations.h"
-
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
 
-#include "renderer/scene/animation/samplers.h"
+#include "renderer/scene/animation/motion.h"
+#include "renderer/scene/document/gltf_document.h"
 
 namespace gnomon {
 
 namespace {
+
+struct NodeTarget {
+  std::size_t node = 0;
+  ChannelPath path = ChannelPath::translation;
+};
+
+/// What a channel moves.
+using AnimationTarget = std::variant<NodeTarget, PropertyTarget>;
 
 std::optional<ChannelPath> pathOf(std::string_view name) {
   for (const auto& [path, spelling] :
@@ -37,6 +46,18 @@ std::optional<NodeTarget> nodeAt(std::string_view pointer, std::size_t nodes) {
   return path ? std::optional(NodeTarget{*node, *path}) : std::nullopt;
 }
 
+/// By node and path, or by the pointer of KHR_animation_pointer; nothing for what is not animated here.
+std::optional<AnimationTarget> targetOf(const gltf::Model& model, const gltf::AnimationChannel& channel) {
+  if (channel.path == "pointer") {
+    if (!channel.pointer) return std::nullopt;
+    if (const auto node = nodeAt(*channel.pointer, model.nodes.size())) return node;
+    return propertyAt(model, *channel.pointer);
+  }
+  const auto path = pathOf(channel.path);
+  if (!path || channel.node < 0) return std::nullopt;
+  return NodeTarget{static_cast<std::size_t>(channel.node), *path};
+}
+
 /// Morph targets of a node's mesh; 0 where it has no mesh.
 std::size_t morphTargetsOf(const gltf::Model& model, const gltf::Node& node) {
   if (node.mesh < 0) return 0;
@@ -46,8 +67,7 @@ std::size_t morphTargetsOf(const gltf::Model& model, const gltf::Node& node) {
 
 class Reading {
  public:
-  explicit Reading(const LoadContext& load)
-      : model_(load.document.model), accessors_(load.accessors), limits_(load.limits), findings_(&load.findings) {}
+  explicit Reading(const LoadContext& load) : load_(load), findings_(&load.findings) {}
 
   Animation read(const gltf::Animation& source, const std::string& pointer) {
     Animation animation;
@@ -69,10 +89,11 @@ class Reading {
   void readChannel(const gltf::Animation& source, const std::string& pointer, std::size_t index, Animation& animation) {
     const gltf::AnimationChannel& channel = source.channels[index];
     const std::string at = pointerTo(pointer + "/channels", index) + "/target";
-    if (source.samplers[channel.sampler].faulty) return; // told by the schema check
-    const auto target = targetOf(model_, channel);
+    if (source.samplers[channel.sampler].faulty) return; // the schema check reports it
+    const auto target = targetOf(load_.document.model, channel);
     if (!target) {
-      findings_->warn("The animation channel that targets " + inQuotes(targetName(channel)) + " is ignored.");
+      findings_->warn("The animation channel that targets " +
+                      inQuotes(channel.pointer ? *channel.pointer : channel.path) + " is ignored.");
       return;
     }
     if (moved_.contains(keyOf(*target))) {
@@ -102,7 +123,7 @@ class Reading {
     const auto [place, isNew] = built_.try_emplace(key);
     if (!isNew) return place->second;
     Sampler sampler =
-        buildSampler(source, pointer, accessors_, key.second, limits_.maxKeyframes - keyframes_, *findings_);
+        buildSampler(source, pointer, load_.accessors, key.second, load_.limits.maxKeyframes - keyframes_, *findings_);
     keyframes_ += sampler.times.size() + sampler.values.size();
     if (findings_->refused() || sampler.times.empty()) return std::nullopt;
     place->second = animation.samplers.size();
@@ -138,7 +159,7 @@ class Reading {
       return SamplerUse{ValueKind::numbers, property->components, 1};
     }
     const auto [index, path] = std::get<NodeTarget>(target);
-    const gltf::Node& node = model_.nodes[index];
+    const gltf::Node& node = load_.document.model.nodes[index];
     if (path == ChannelPath::visibility) return SamplerUse{ValueKind::boolean, 1, 1};
     if (path != ChannelPath::weights) {
       const bool rotates = path == ChannelPath::rotation;
@@ -147,15 +168,13 @@ class Reading {
       findings_->invalid(pointer, "A node with a matrix can't be animated.");
       return std::nullopt;
     }
-    const std::size_t targets = morphTargetsOf(model_, node);
+    const std::size_t targets = morphTargetsOf(load_.document.model, node);
     if (targets > 0) return SamplerUse{ValueKind::numbers, 1, targets};
     findings_->invalid(pointer, "The node has no morph targets whose weights could be animated.");
     return std::nullopt;
   }
 
-  const gltf::Model& model_;
-  const std::vector<AccessorView>& accessors_;
-  const Limits& limits_;
+  const LoadContext& load_;
   Findings* findings_;        ///< of the channel that is read
   std::size_t keyframes_ = 0; ///< numbers read so far; <= maxKeyframes
   // Of the animation that is read:
@@ -164,21 +183,6 @@ class Reading {
 };
 
 } // namespace
-
-std::optional<AnimationTarget> targetOf(const gltf::Model& model, const gltf::AnimationChannel& channel) {
-  if (channel.path == "pointer") {
-    if (!channel.pointer) return std::nullopt;
-    if (const auto node = nodeAt(*channel.pointer, model.nodes.size())) return node;
-    return propertyAt(model, *channel.pointer);
-  }
-  const auto path = pathOf(channel.path);
-  if (!path || channel.node < 0) return std::nullopt;
-  return NodeTarget{static_cast<std::size_t>(channel.node), *path};
-}
-
-const std::string& targetName(const gltf::AnimationChannel& channel) {
-  return channel.pointer ? *channel.pointer : channel.path;
-}
 
 std::set<std::size_t> nodesWithMovingWeights(const gltf::Model& model) {
   std::set<std::size_t> nodes;

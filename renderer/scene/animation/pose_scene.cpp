@@ -1,5 +1,3 @@
-#include "renderer/scene/animation/pose_scene.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,7 +7,8 @@
 #include "renderer/core/aabb.h"
 #include "renderer/core/linear_algebra.h"
 #include "renderer/core/stop.h"
-#include "renderer/scene/animation/samplers.h"
+#include "renderer/scene/animation/motion.h"
+#include "renderer/scene/animation/posed_scene.h"
 #include "renderer/scene/graph/attachments.h"
 #include "renderer/scene/graph/node_tree.h"
 #include "renderer/scene/materials/materials.h"
@@ -129,8 +128,8 @@ Problem disallowed(const std::string& pointer, double timeSeconds, const std::st
           "", std::to_string(timeSeconds) + " seconds"};
 }
 
-/// The file's properties at a time. What a spline throws beyond a property's range is held at its end; a problem where
-/// that is not in the range itself, or where two members no longer fit each other.
+/// The file's properties at a time, clamped to their ranges; a problem at an excluded end, or where two members no
+/// longer fit each other.
 Result<Properties> moveProperties(const Properties& rest, const Animation& animation, double timeSeconds) {
   Properties moved = rest;
   for (const PropertyChannel& channel : animation.properties) {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -10,10 +13,31 @@
 #include "protocol/base/lru.h"
 #include "protocol/base/result.h"
 #include "protocol/spec/frame_spec.h"
-#include "renderer/scene/animation/node_places.h"
+#include "protocol/spec/scene_options.h"
+#include "renderer/scene/graph/node_tree.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {
+
+struct Animation;
+
+/// Where a frame puts a node, relative to its parent. What is absent stays as it is.
+struct NodePlace {
+  std::size_t node = 0;               ///< index into Scene::nodes
+  std::size_t entry = 0;              ///< of the frame's nodes: the last that says so
+  std::optional<glm::dmat4> matrix{}; ///< instead of the others
+  std::optional<glm::dvec3> translation{};
+  std::optional<glm::dquat> rotation{}; ///< of length 1
+  std::optional<glm::dvec3> scale{};
+
+  bool operator==(const NodePlace&) const = default;
+};
+
+/// Whether an entry says anything of a place.
+bool hasPlace(const NodeOptions& entry);
+
+/// A node's own transform with the place's parts. Parts beside a matrix of the file replace it.
+LocalTransform moved(LocalTransform local, const NodePlace& place);
 
 /// What moves the nodes of a scene: a moment of one of its animations, and after that the places that a frame gives.
 struct Pose {
@@ -26,12 +50,11 @@ inline Pose poseOf(const FrameSpec& spec) {
   return {spec.animation, spec.nodes};
 }
 
-/// The scene in a pose: another scene, which shares the images and, where nothing is deformed, the vertices, and that
-/// can be posed no further. The last poses of a scene are kept, so that asking for one again gives the same. Where
-/// nothing moves, the scene itself. A problem for an animation or a node that the file does not have. Any thread.
+/// The scene in a pose, or itself where nothing moves; kept for the next call. A problem for an animation or node that
+/// the file lacks. Any thread.
 Result<std::shared_ptr<const Scene>> posedScene(const std::shared_ptr<const Scene>& scene, const Pose& pose);
 
-/// Alike; the result must not outlive the scene.
+/// The same for a scene that outlives the result.
 Result<std::shared_ptr<const Scene>> posedScene(const Scene& scene, const Pose& pose);
 
 /// The last poses of a scene. Any thread; one that asks for a pose waits while another is made.
@@ -60,5 +83,16 @@ class PoseCache {
   std::timed_mutex mutex_;
   LruList<Entry> entries_;
 };
+
+/// How a scene is posed: an animation at a time, and after that places of nodes.
+struct PoseInput {
+  const Animation* animation = nullptr; ///< nullptr = the rest pose
+  double timeSeconds = 0;
+  std::span<const NodePlace> places{}; ///< ascending by node
+};
+
+/// The scene in a pose; shares images, and vertices where none is deformed. A problem at /nodes or /animation where
+/// something is not finite. REQUIRES: the scene has motion.
+Result<std::shared_ptr<const Scene>> poseScene(const Scene& scene, const PoseInput& input);
 
 } // namespace gnomon

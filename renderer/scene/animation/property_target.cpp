@@ -1,8 +1,7 @@
-#include "renderer/scene/animation/property_target.h"
-
 #include <algorithm>
 #include <charconv>
 
+#include "renderer/scene/animation/motion.h"
 #include "renderer/scene/checks/gltf_fields.h"
 
 namespace gnomon {

@@ -1,8 +1,8 @@
-#include "renderer/scene/animation/samplers.h"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+
+#include "renderer/scene/animation/motion.h"
 
 namespace gnomon {
 

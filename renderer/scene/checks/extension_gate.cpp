@@ -1,46 +1,46 @@
-#include "renderer/scene/checks/extension_gate.h"
-
 #include <algorithm>
 #include <array>
 #include <iterator>
 #include <string_view>
 
+#include "renderer/scene/checks/gltf_schema.h"
+
 namespace gnomon {
 
 namespace {
 
-constexpr std::array<std::string_view, 16> kSupported{"CESIUM_RTC",
-                                                      "EXT_mesh_gpu_instancing",
-                                                      "EXT_meshopt_compression",
-                                                      "EXT_texture_webp",
-                                                      "KHR_animation_pointer",
-                                                      "KHR_draco_mesh_compression",
-                                                      "KHR_lights_punctual",
-                                                      "KHR_materials_emissive_strength",
-                                                      "KHR_materials_pbrSpecularGlossiness",
-                                                      "KHR_materials_transmission",
-                                                      "KHR_materials_unlit",
-                                                      "KHR_materials_variants",
-                                                      "KHR_mesh_quantization",
-                                                      "KHR_meshopt_compression",
-                                                      "KHR_node_visibility",
-                                                      "KHR_texture_transform"};
+constexpr std::string_view kSupported[] = {"CESIUM_RTC",
+                                           "EXT_mesh_gpu_instancing",
+                                           "EXT_meshopt_compression",
+                                           "EXT_texture_webp",
+                                           "KHR_animation_pointer",
+                                           "KHR_draco_mesh_compression",
+                                           "KHR_lights_punctual",
+                                           "KHR_materials_emissive_strength",
+                                           "KHR_materials_pbrSpecularGlossiness",
+                                           "KHR_materials_transmission",
+                                           "KHR_materials_unlit",
+                                           "KHR_materials_variants",
+                                           "KHR_mesh_quantization",
+                                           "KHR_meshopt_compression",
+                                           "KHR_node_visibility",
+                                           "KHR_texture_transform"};
 
-/// What tells about a model and changes no pixel.
-constexpr std::array<std::string_view, 14> kMetadata{"AGI_articulations",
-                                                     "AGI_stk_metadata",
-                                                     "EXT_feature_metadata",
-                                                     "EXT_instance_features",
-                                                     "EXT_mesh_features",
-                                                     "EXT_structural_metadata",
-                                                     "KHR_audio_emitter",
-                                                     "KHR_interactivity",
-                                                     "KHR_node_hoverability",
-                                                     "KHR_node_selectability",
-                                                     "KHR_physics_rigid_bodies",
-                                                     "KHR_implicit_shapes",
-                                                     "KHR_xmp",
-                                                     "KHR_xmp_json_ld"};
+/// Metadata, which changes no pixel.
+constexpr std::string_view kMetadata[] = {"AGI_articulations",
+                                          "AGI_stk_metadata",
+                                          "EXT_feature_metadata",
+                                          "EXT_instance_features",
+                                          "EXT_mesh_features",
+                                          "EXT_structural_metadata",
+                                          "KHR_audio_emitter",
+                                          "KHR_interactivity",
+                                          "KHR_node_hoverability",
+                                          "KHR_node_selectability",
+                                          "KHR_physics_rigid_bodies",
+                                          "KHR_implicit_shapes",
+                                          "KHR_xmp",
+                                          "KHR_xmp_json_ld"};
 
 struct Consequence {
   std::string_view extension;
@@ -61,11 +61,10 @@ constexpr std::array kConsequences{
 };
 
 bool isMetadata(std::string_view name) {
-  return std::ranges::find(kMetadata, name) != kMetadata.end();
+  return std::ranges::find(kMetadata, name) != std::end(kMetadata);
 }
 
-/// Whether a file that requires the extension is drawn without it: what it adds to a material is left out, as where it
-/// is optional.
+/// Whether a file that requires the extension is drawn without it.
 bool isNoObstacle(std::string_view name) {
   return isMetadata(name) || name.starts_with("KHR_materials_");
 }
@@ -119,12 +118,12 @@ std::set<std::string> namesIn(const nlohmann::json& document, const char* key) {
 }
 
 bool isSupported(std::string_view extension) {
-  return std::ranges::find(kSupported, extension) != kSupported.end();
+  return std::ranges::find(kSupported, extension) != std::end(kSupported);
 }
 
 void checkExtensions(const nlohmann::json& document, Findings& findings) {
   const std::set<std::string> used = namesIn(document, "extensionsUsed");
-  std::set<std::string> told;
+  std::set<std::string> reported;
   for (const auto& [index, name] : stringsIn(document, "extensionsRequired")) {
     const std::string pointer = pointerTo("/extensionsRequired", index);
     if (isSupported(name)) {
@@ -135,13 +134,13 @@ void checkExtensions(const nlohmann::json& document, Findings& findings) {
       findings.repair({"The glTF requires the extension " + inQuotes(name) + ", which is not supported",
                        std::string(consequenceOf(name))},
                       pointer);
-      told.insert(name);
+      reported.insert(name);
     } else {
       findings.unsupported(pointer, "The glTF requires the extension " + inQuotes(name) + ", which is not supported.");
     }
   }
   for (const auto& [index, name] : stringsIn(document, "extensionsUsed")) {
-    if (!isSupported(name) && !told.contains(name)) {
+    if (!isSupported(name) && !reported.contains(name)) {
       findings.warn("The extension " + inQuotes(name) + " is not supported: " + std::string(consequenceOf(name)) + ".");
     }
   }

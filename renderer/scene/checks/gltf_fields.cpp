@@ -11,8 +11,25 @@ using enum FieldKind;
 constexpr double kMaxOffset = 9007199254740991.0; // 2^53 - 1: the largest count that JSON numbers hold exactly
 constexpr double kMaxSparse = 2147483647.0;
 constexpr double kMaxTexCoord = 255;
-constexpr double kMaxUv = 1e9; // far beyond what floats tell apart in a texture
+constexpr double kMaxUv = 1e9; // beyond what floats resolve in a texture
 constexpr double kMaxAttributeId = 4294967295.0;
+
+/// A member with one of these values, separated by spaces.
+constexpr GltfField oneOf(std::string_view owner, std::string_view key, FieldKind kind, std::string_view allowed,
+                          bool required = false) {
+  return {.owner = owner, .key = key, .kind = kind, .required = required, .allowed = allowed};
+}
+
+/// The same, whose other values have no default.
+constexpr GltfField strictlyOneOf(std::string_view owner, std::string_view key, std::string_view allowed) {
+  return {.owner = owner, .key = key, .kind = string, .allowed = allowed, .noDefault = true};
+}
+
+/// A number above 0.
+constexpr GltfField above0(std::string_view owner, std::string_view key, bool required,
+                           double max = std::numeric_limits<double>::infinity()) {
+  return {.owner = owner, .key = key, .kind = number, .required = required, .min = 0, .max = max, .minExcluded = true};
+}
 
 constexpr GltfField kFields[] = {
     {"root", "asset", object, "asset", true},
@@ -69,7 +86,7 @@ constexpr GltfField kFields[] = {
     {"primitive", "attributes", referenceMap, "accessors", true},
     {"primitive", "indices", reference, "accessors"},
     {"primitive", "material", reference, "materials"},
-    {.owner = "primitive", .key = "mode", .kind = integer, .allowed = "0 1 2 3 4 5 6"},
+    oneOf("primitive", "mode", integer, "0 1 2 3 4 5 6"),
     {"primitive", "targets", referenceMaps, "accessors"},
     {"primitive", "extensions", object, "primitive.extensions"},
     {"primitive.extensions", "KHR_draco_mesh_compression", object, "draco"},
@@ -82,18 +99,10 @@ constexpr GltfField kFields[] = {
 
     {"accessor", "bufferView", reference, "bufferViews"},
     {.owner = "accessor", .key = "byteOffset", .kind = integer, .min = 0, .max = kMaxOffset},
-    {.owner = "accessor",
-     .key = "componentType",
-     .kind = integer,
-     .required = true,
-     .allowed = "5120 5121 5122 5123 5125 5126"},
+    oneOf("accessor", "componentType", integer, "5120 5121 5122 5123 5125 5126", true),
     {"accessor", "normalized", boolean},
     {.owner = "accessor", .key = "count", .kind = integer, .required = true, .min = 0, .max = kMaxOffset},
-    {.owner = "accessor",
-     .key = "type",
-     .kind = string,
-     .required = true,
-     .allowed = "SCALAR VEC2 VEC3 VEC4 MAT2 MAT3 MAT4"},
+    oneOf("accessor", "type", string, "SCALAR VEC2 VEC3 VEC4 MAT2 MAT3 MAT4", true),
     {"accessor", "min", numbers},
     {"accessor", "max", numbers},
     {"accessor", "sparse", object, "sparse"},
@@ -102,7 +111,7 @@ constexpr GltfField kFields[] = {
     {"sparse", "values", object, "sparse.values", true},
     {"sparse.indices", "bufferView", reference, "bufferViews", true},
     {.owner = "sparse.indices", .key = "byteOffset", .kind = integer, .min = 0, .max = kMaxSparse},
-    {.owner = "sparse.indices", .key = "componentType", .kind = integer, .required = true, .allowed = "5121 5123 5125"},
+    oneOf("sparse.indices", "componentType", integer, "5121 5123 5125", true),
     {"sparse.values", "bufferView", reference, "bufferViews", true},
     {.owner = "sparse.values", .key = "byteOffset", .kind = integer, .min = 0, .max = kMaxSparse},
 
@@ -118,12 +127,8 @@ constexpr GltfField kFields[] = {
     {.owner = "meshopt", .key = "byteLength", .kind = integer, .required = true, .min = 1, .max = kMaxOffset},
     {.owner = "meshopt", .key = "byteStride", .kind = integer, .required = true, .min = 1, .max = 256},
     {.owner = "meshopt", .key = "count", .kind = integer, .required = true, .min = 1, .max = kMaxOffset},
-    {.owner = "meshopt", .key = "mode", .kind = string, .required = true, .allowed = "ATTRIBUTES TRIANGLES INDICES"},
-    {.owner = "meshopt",
-     .key = "filter",
-     .kind = string,
-     .allowed = "NONE OCTAHEDRAL QUATERNION EXPONENTIAL COLOR",
-     .noDefault = true},
+    oneOf("meshopt", "mode", string, "ATTRIBUTES TRIANGLES INDICES", true),
+    strictlyOneOf("meshopt", "filter", "NONE OCTAHEDRAL QUATERNION EXPONENTIAL COLOR"),
     {"buffer", "extensions", object, "buffer.extensions"},
     {"buffer.extensions", "EXT_meshopt_compression", object, "meshopt.buffer"},
     {"buffer.extensions", "KHR_meshopt_compression", object, "meshopt.buffer"},
@@ -137,7 +142,7 @@ constexpr GltfField kFields[] = {
     {"material", "occlusionTexture", object, "occlusionTexture"},
     {"material", "emissiveTexture", object, "textureInfo"},
     {.owner = "material", .key = "emissiveFactor", .kind = numbers, .min = 0, .length = 3},
-    {.owner = "material", .key = "alphaMode", .kind = string, .allowed = "OPAQUE MASK BLEND"},
+    oneOf("material", "alphaMode", string, "OPAQUE MASK BLEND"),
     {.owner = "material", .key = "alphaCutoff", .kind = number, .min = 0},
     {"material", "doubleSided", boolean},
     {"material", "extensions", object, "material.extensions"},
@@ -181,48 +186,37 @@ constexpr GltfField kFields[] = {
     {"texture.extensions", "KHR_texture_basisu", object, "otherImage"},
     {"otherImage", "source", reference, "images"},
     {"texture", "sampler", reference, "samplers"},
-    {.owner = "sampler", .key = "magFilter", .kind = integer, .allowed = "9728 9729"},
-    {.owner = "sampler", .key = "minFilter", .kind = integer, .allowed = "9728 9729 9984 9985 9986 9987"},
-    {.owner = "sampler", .key = "wrapS", .kind = integer, .allowed = "33071 33648 10497"},
-    {.owner = "sampler", .key = "wrapT", .kind = integer, .allowed = "33071 33648 10497"},
+    oneOf("sampler", "magFilter", integer, "9728 9729"),
+    oneOf("sampler", "minFilter", integer, "9728 9729 9984 9985 9986 9987"),
+    oneOf("sampler", "wrapS", integer, "33071 33648 10497"),
+    oneOf("sampler", "wrapT", integer, "33071 33648 10497"),
     {"image", "name", string},
     {"image", "uri", string},
     {"image", "mimeType", string},
     {"image", "bufferView", reference, "bufferViews"},
 
     {"camera", "name", string},
-    {.owner = "camera", .key = "type", .kind = string, .required = true, .allowed = "perspective orthographic"},
+    oneOf("camera", "type", string, "perspective orthographic", true),
     {"camera", "perspective", object, "perspective"},
     {"camera", "orthographic", object, "orthographic"},
-    {.owner = "perspective", .key = "aspectRatio", .kind = number, .min = 0, .minExcluded = true},
-    {.owner = "perspective",
-     .key = "yfov",
-     .kind = number,
-     .required = true,
-     .min = 0,
-     .max = std::numbers::pi,
-     .minExcluded = true},
-    {.owner = "perspective", .key = "znear", .kind = number, .required = true, .min = 0, .minExcluded = true},
-    {.owner = "perspective", .key = "zfar", .kind = number, .min = 0, .minExcluded = true},
+    above0("perspective", "aspectRatio", false),
+    above0("perspective", "yfov", true, std::numbers::pi),
+    above0("perspective", "znear", true),
+    above0("perspective", "zfar", false),
     {"orthographic", "xmag", number, {}, true},
     {"orthographic", "ymag", number, {}, true},
     {.owner = "orthographic", .key = "znear", .kind = number, .required = true, .min = 0},
-    {.owner = "orthographic", .key = "zfar", .kind = number, .required = true, .min = 0, .minExcluded = true},
+    above0("orthographic", "zfar", true),
 
     {"lights", "lights", objects, "light", true},
     {"light", "name", string},
-    {.owner = "light", .key = "type", .kind = string, .required = true, .allowed = "directional spot point"},
+    oneOf("light", "type", string, "directional spot point", true),
     {.owner = "light", .key = "color", .kind = numbers, .min = 0, .length = 3},
     {.owner = "light", .key = "intensity", .kind = number, .min = 0},
-    {.owner = "light", .key = "range", .kind = number, .min = 0, .minExcluded = true},
+    above0("light", "range", false),
     {"light", "spot", object, "spot"},
     {.owner = "spot", .key = "innerConeAngle", .kind = number, .min = 0, .max = std::numbers::pi / 2},
-    {.owner = "spot",
-     .key = "outerConeAngle",
-     .kind = number,
-     .min = 0,
-     .max = std::numbers::pi / 2,
-     .minExcluded = true},
+    above0("spot", "outerConeAngle", false, std::numbers::pi / 2),
 
     {"skin", "name", string},
     {"skin", "joints", references, "nodes", true},
@@ -233,11 +227,7 @@ constexpr GltfField kFields[] = {
     {"animation", "samplers", objects, "animation.sampler", true},
     {"animation.sampler", "input", reference, "accessors", true},
     {"animation.sampler", "output", reference, "accessors", true},
-    {.owner = "animation.sampler",
-     .key = "interpolation",
-     .kind = string,
-     .allowed = "LINEAR STEP CUBICSPLINE",
-     .noDefault = true},
+    strictlyOneOf("animation.sampler", "interpolation", "LINEAR STEP CUBICSPLINE"),
     {"channel", "sampler", reference, "animation.samplers", true},
     {"channel", "target", object, "target", true},
     {"target", "node", reference, "nodes"},

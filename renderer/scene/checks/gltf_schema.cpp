@@ -8,7 +8,6 @@
 #include <set>
 #include <utility>
 
-#include "renderer/scene/checks/extension_gate.h"
 #include "renderer/scene/checks/gltf_fields.h"
 
 namespace gnomon {
@@ -112,12 +111,10 @@ class SchemaCheck {
       if (field.owner.ends_with(".extensions")) placed_.insert(std::string(field.key));
       if (field.owner == "root" && field.kind == FieldKind::objects) sizes_[field.key] = sizeOf(document, field.key);
     }
-    const auto extensions = document.find("extensions");
-    if (extensions != document.end() && extensions->is_object()) {
-      const auto lights = extensions->find("KHR_lights_punctual");
-      if (lights != extensions->end() && lights->is_object()) sizes_["lights"] = sizeOf(*lights, "lights");
-      const auto variants = extensions->find("KHR_materials_variants");
-      if (variants != extensions->end() && variants->is_object()) sizes_["variants"] = sizeOf(*variants, "variants");
+    for (const auto& [extension, key] :
+         {std::pair("KHR_lights_punctual", "lights"), std::pair("KHR_materials_variants", "variants")}) {
+      const json::json_pointer holder = json::json_pointer("/extensions") / extension;
+      if (document.contains(holder)) sizes_[key] = sizeOf(document[holder], key);
     }
   }
 
@@ -204,9 +201,9 @@ class SchemaCheck {
       case FieldKind::object:
         return checkObject(value, field.of, pointer);
       case FieldKind::referenceMap:
-        return checkReferenceMap(field, value, pointer);
+        return checkMap(field, value, pointer, &SchemaCheck::checkReference);
       case FieldKind::integerMap:
-        return checkIntegerMap(field, value, pointer);
+        return checkMap(field, value, pointer, &SchemaCheck::checkInteger);
       case FieldKind::numbers:
       case FieldKind::strings:
       case FieldKind::references:
@@ -245,22 +242,17 @@ class SchemaCheck {
   void checkReference(const GltfField& field, json& value, const std::string& pointer) {
     if (!makeInteger(value)) return wrongType(pointer, "an index", value);
     const std::size_t size = sizes_[field.of];
-    const bool exists = value.is_number_unsigned() ? value.get<std::uint64_t>() < size
-                                                   : value.get<std::int64_t>() >= 0 &&
-                                                         static_cast<std::uint64_t>(value.get<std::int64_t>()) < size;
-    if (exists) return;
+    const auto index = value.get<std::int64_t>(); // negative, too, from 2^63 on
+    if (index >= 0 && static_cast<std::uint64_t>(index) < size) return;
     findings_->invalid(pointer, "The index is out of range of " + std::string(field.of) + ".",
                        size == 0 ? "none" : "0.." + std::to_string(size - 1), textOf(value));
   }
 
-  void checkReferenceMap(const GltfField& field, json& value, const std::string& pointer) {
+  /// `check`: of each of its values.
+  void checkMap(const GltfField& field, json& value, const std::string& pointer,
+                void (SchemaCheck::*check)(const GltfField&, json&, const std::string&)) {
     if (!value.is_object()) return wrongType(pointer, "an object", value);
-    for (auto& [key, index] : value.items()) checkReference(field, index, pointerTo(pointer, key));
-  }
-
-  void checkIntegerMap(const GltfField& field, json& value, const std::string& pointer) {
-    if (!value.is_object()) return wrongType(pointer, "an object", value);
-    for (auto& [key, number] : value.items()) checkInteger(field, number, pointerTo(pointer, key));
+    for (auto& [key, each] : value.items()) (this->*check)(field, each, pointerTo(pointer, key));
   }
 
   void checkArray(const GltfField& field, json& value, const std::string& pointer) {
@@ -291,7 +283,7 @@ class SchemaCheck {
           }
           break;
         case FieldKind::referenceMaps:
-          checkReferenceMap(field, value[i], at);
+          checkMap(field, value[i], at, &SchemaCheck::checkReference);
           break;
         default:
           checkElement(value[i], field.of, at);

@@ -1,17 +1,32 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "renderer/scene/findings.h"
 
 namespace gnomon {
 
-/// Checks every member of the glTF that Gnomon reads: its presence, type and range, and that each index names
-/// something that exists. Integral numbers written as 3.0 become 3. Members that are not read are left alone.
-/// What is repaired is as repaired afterwards: a number that was rounded beyond its limit is at the limit, a value of
-/// no list is gone, and in the place of an accessor, buffer, camera, light or animation that is left out stands an
-/// array of the reason and its name (faultOf in document/gltf_json.h). What needs the buffers or several members at
-/// once is checked elsewhere.
+/// Refuses glTF versions other than 2.x.
+void checkVersion(const nlohmann::json& document, Findings& findings);
+
+/// Refuses every required extension that is not supported; warns of those that are used.
+void checkExtensions(const nlohmann::json& document, Findings& findings);
+
+/// The strings of an array member of the root; other values are left to the schema check.
+std::set<std::string> namesIn(const nlohmann::json& document, const char* key);
+
+/// Whether what an extension adds is read.
+bool isSupported(std::string_view extension);
+
+/// Of these names those that are not supported, in their order.
+std::vector<std::string> unsupportedOf(const std::vector<std::string>& names);
+
+/// Checks and repairs every member that Gnomon reads: presence, type, range, and that each index exists; 3.0 becomes 3.
+/// A part that is left out becomes an array of the reason and its name (faultOf in document/read_model.h).
 void checkSchema(nlohmann::json& document, Findings& findings);
 
 } // namespace gnomon

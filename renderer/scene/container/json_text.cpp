@@ -116,15 +116,11 @@ class JsonReader final : public nlohmann::json_sax<json> {
 
   Problem problem() const {
     if (!isNoJson_) {
-      return {ProblemCode::malformed, {}, "The glTF's JSON holds a number that no double can hold.", {}, {}};
+      return {ProblemCode::malformed, {}, "The glTF's JSON holds a number that no double can hold."};
     }
     std::size_t byte = position_;
     for (const Cut& cut : cuts_) byte += cut.end <= position_ ? cut.content.size() : 0;
-    return {ProblemCode::malformed,
-            {},
-            "The glTF is not valid JSON: byte " + std::to_string(byte) + " is unexpected.",
-            {},
-            {}};
+    return {ProblemCode::malformed, {}, "The glTF is not valid JSON: byte " + std::to_string(byte) + " is unexpected."};
   }
 
  private:
@@ -180,7 +176,7 @@ Result<json> parseJsonText(std::string_view text, const Limits& limits) {
   if (!json::sax_parse(cut.text, &reader)) return reader.problem();
   json document = reader.take();
   if (!document.is_object()) {
-    return Problem{ProblemCode::malformed, {}, "The glTF's JSON is not an object.", {}, {}};
+    return Problem{ProblemCode::malformed, {}, "The glTF's JSON is not an object."};
   }
   return document;
 }

@@ -8,8 +8,8 @@
 
 namespace gnomon {
 
-/// Parses JSON whose root is an object; of a key that comes twice the last counts. Nesting and the number of values are
-/// counted on the bytes first, so that no parser meets a text that would exhaust its stack or the memory.
+/// Parses JSON whose root is an object; of a repeated key the last counts. Nesting and number of values are checked on
+/// the bytes first.
 Result<nlohmann::json> parseJsonText(std::string_view text, const Limits& limits);
 
 } // namespace gnomon

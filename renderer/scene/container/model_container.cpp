@@ -29,9 +29,8 @@ std::uint32_t kindAt(std::span<const std::uint8_t> file, std::size_t offset) {
   return offset + kChunkHeaderBytes <= file.size() ? numberAt(file, offset + 4) : 0;
 }
 
-/// Where the next chunk begins after one of so many bytes that ends at `end`. Chunks are padded to multiples of 4
-/// bytes: of one that is not, some write the padding without counting it, and some leave it out. Nothing where neither
-/// leads to a chunk or to the end.
+/// Where the next chunk begins after one of `bytes` that ends at `end`, whether or not its padding is there and
+/// counted; nothing where neither leads to a chunk or the end.
 std::optional<std::size_t> nextChunk(std::span<const std::uint8_t> file, std::size_t length, std::size_t bytes,
                                      std::size_t end) {
   if (bytes % 4 == 0) return end;

@@ -17,8 +17,8 @@ struct ModelContainer {
   std::optional<std::span<const std::uint8_t>> binary; ///< the GLB's BIN chunk
 };
 
-/// Tells a GLB from glTF JSON by its first bytes and checks every length of a GLB. Chunks that are not padded and bytes
-/// after the end are repairs; other files are called by their names in the problem.
+/// Distinguishes GLB and JSON by the first bytes and checks every length of a GLB; the problem names other kinds of
+/// files.
 Result<ModelContainer> openContainer(const Bytes& model, Findings& findings);
 
 } // namespace gnomon

@@ -92,6 +92,24 @@ Bytes decoded(const gltf::BufferView& view, const Parts& parts, const std::vecto
   return bytes;
 }
 
+/// Nothing where it can't be had: what needs it is left out.
+std::optional<ResourceBytes> bytesAt(const std::string& uri, const SceneBundle& bundle, const std::string& pointer,
+                                     Findings& findings) {
+  auto bytes = resolveUri(uri, bundle, pointer);
+  if (!bytes) {
+    for (Problem& problem : std::move(bytes).problems()) leaveOut(std::move(problem), findings);
+    return std::nullopt;
+  }
+  if (schemeOf(uri) == "data" && uri.substr(0, uri.find(',')).find(";;") != std::string::npos) {
+    findings.repair({"The media type of a data: URI is broken", "its data are read"}, pointer);
+  }
+  const auto named = fileUri(uri);
+  if (named && named->hasBackslash) {
+    findings.repair({"A file name has a backslash", "it is read as a slash"}, pointer, {}, inQuotes(uri));
+  }
+  return *std::move(bytes);
+}
+
 } // namespace
 
 std::span<const std::uint8_t> ResourceBytes::view() const {
@@ -121,28 +139,6 @@ Result<ResourceBytes> resolveUri(std::string_view uri, const SceneBundle& bundle
       ProblemCode::invalidScene, pointer, "The glTF refers to a file that is not there.", {}, inQuotes(named->name)};
 }
 
-namespace {
-
-/// Nothing where it can't be had: what needs it is left out.
-std::optional<ResourceBytes> bytesAt(const std::string& uri, const SceneBundle& bundle, const std::string& pointer,
-                                     Findings& findings) {
-  auto bytes = resolveUri(uri, bundle, pointer);
-  if (!bytes) {
-    for (Problem& problem : std::move(bytes).problems()) leaveOut(std::move(problem), findings);
-    return std::nullopt;
-  }
-  if (schemeOf(uri) == "data" && uri.substr(0, uri.find(',')).find(";;") != std::string::npos) {
-    findings.repair({"The media type of a data: URI is broken", "its data are read"}, pointer);
-  }
-  const auto named = fileUri(uri);
-  if (named && named->hasBackslash) {
-    findings.repair({"A file name has a backslash", "it is read as a slash"}, pointer, {}, inQuotes(uri));
-  }
-  return *std::move(bytes);
-}
-
-} // namespace
-
 std::vector<ResourceBytes> readBuffers(const gltf::Model& model, const std::vector<bool>& fallbacks,
                                        std::optional<BytesView> binary, const SceneBundle& bundle, Findings& findings) {
   const std::vector<gltf::Buffer>& buffers = model.buffers;
@@ -157,11 +153,8 @@ std::vector<ResourceBytes> readBuffers(const gltf::Model& model, const std::vect
     } else if (i == 0 && binary) {
       read[i] = ResourceBytes(*binary);
     } else {
-      leaveOut({ProblemCode::invalidScene,
-                pointer + "/uri",
-                "A buffer has no bytes: neither a uri nor the GLB's BIN chunk.",
-                {},
-                {}},
+      leaveOut({ProblemCode::invalidScene, pointer + "/uri",
+                "A buffer has no bytes: neither a uri nor the GLB's BIN chunk."},
                findings);
       continue;
     }
@@ -187,11 +180,8 @@ BufferViews readBufferViews(const gltf::Model& model, const std::vector<Resource
       read.decoded[i] = decoded(views[i], parts, fallbacks, pointer, budget, findings);
       read.bytes[i] = read.decoded[i];
     } else if (fallbacks[views[i].buffer]) {
-      leaveOut({ProblemCode::invalidScene,
-                pointer + "/buffer",
-                "A buffer view lies in a fallback buffer, but is not compressed.",
-                {},
-                {}},
+      leaveOut({ProblemCode::invalidScene, pointer + "/buffer",
+                "A buffer view lies in a fallback buffer, but is not compressed."},
                findings);
     } else {
       read.bytes[i] = parts.at(views[i].buffer, views[i].byteOffset, views[i].byteLength, pointer);
@@ -212,7 +202,7 @@ std::vector<ResourceBytes> readImages(const gltf::Model& model, const std::vecto
       read[i] = ResourceBytes(bufferViews[static_cast<std::size_t>(view)]);
       if (uri) findings.repair({"An image has a uri and a bufferView", "the bufferView is read"}, pointer);
     } else if (!uri) {
-      leaveOut({ProblemCode::invalidScene, pointer, "An image has neither a uri nor a bufferView.", {}, {}}, findings);
+      leaveOut({ProblemCode::invalidScene, pointer, "An image has neither a uri nor a bufferView."}, findings);
     } else if (auto bytes = bytesAt(*uri, bundle, pointer + "/uri", findings)) {
       read[i] = *std::move(bytes);
     }

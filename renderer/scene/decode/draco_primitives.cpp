@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <draco/mesh/mesh.h>
 #include <set>
 
 #include "renderer/core/stop.h"
-#include "renderer/scene/decode/draco_stream.h"
 
 namespace gnomon {
 
@@ -14,32 +12,23 @@ namespace {
 
 constexpr const char* kExtension = "KHR_draco_mesh_compression";
 
-struct TypeRow {
-  draco::DataType draco;
-  ComponentType type;
-  const char* name; ///< glTF's
-};
-
-/// Those that a glTF may have.
-constexpr std::array<TypeRow, 6> kTypes{{{draco::DT_INT8, ComponentType::int8, "BYTE"},
-                                         {draco::DT_UINT8, ComponentType::uint8, "UNSIGNED_BYTE"},
-                                         {draco::DT_INT16, ComponentType::int16, "SHORT"},
-                                         {draco::DT_UINT16, ComponentType::uint16, "UNSIGNED_SHORT"},
-                                         {draco::DT_UINT32, ComponentType::uint32, "UNSIGNED_INT"},
-                                         {draco::DT_FLOAT32, ComponentType::float32, "FLOAT"}}};
+/// glTF's names.
+constexpr std::array<std::pair<ComponentType, const char*>, 6> kTypeNames{{{ComponentType::int8, "BYTE"},
+                                                                           {ComponentType::uint8, "UNSIGNED_BYTE"},
+                                                                           {ComponentType::int16, "SHORT"},
+                                                                           {ComponentType::uint16, "UNSIGNED_SHORT"},
+                                                                           {ComponentType::uint32, "UNSIGNED_INT"},
+                                                                           {ComponentType::float32, "FLOAT"}}};
 
 std::string shapeText(ComponentType type, int components) {
-  return std::to_string(components) + " x " + std::ranges::find(kTypes, type, &TypeRow::type)->name;
+  return std::to_string(components) + " x " +
+         std::ranges::find(kTypeNames, type, &std::pair<ComponentType, const char*>::first)->second;
 }
 
 class PrimitiveDecoding {
  public:
   PrimitiveDecoding(const LoadContext& load, const gltf::Primitive& primitive, std::string pointer, Findings& findings)
-      : document_(load.document),
-        limits_(load.limits),
-        findings_(findings),
-        primitive_(primitive),
-        pointer_(std::move(pointer)) {}
+      : load_(load), findings_(findings), primitive_(primitive), pointer_(std::move(pointer)) {}
 
   std::optional<DracoPrimitive> decode(DecodeBudget& budget) {
     const std::string at = pointer_ + "/extensions/" + kExtension;
@@ -51,19 +40,19 @@ class PrimitiveDecoding {
     if (!ids) return std::nullopt;
     DracoClaims claims{accessorOf("POSITION").count, std::nullopt};
     if (primitive_.indices >= 0) {
-      claims.triangles = document_.model.accessors[static_cast<std::size_t>(primitive_.indices)].count / 3;
+      claims.triangles = load_.document.model.accessors[static_cast<std::size_t>(primitive_.indices)].count / 3;
     }
     std::set<std::uint32_t> wanted;
     for (const auto& [name, id] : *ids) wanted.insert(id);
-    auto mesh = decodeDraco(document_.bufferViews[primitive_.draco->bufferView], claims, wanted, limits_, budget, at,
-                            findings_);
+    auto mesh = decodeDraco(load_.document.bufferViews[primitive_.draco->bufferView], claims, wanted, load_.limits,
+                            budget, at, findings_);
     if (!mesh) return std::nullopt;
     return viewed(*std::move(mesh), *ids, at + "/attributes");
   }
 
  private:
   const gltf::Accessor& accessorOf(const std::string& name) const {
-    return document_.model.accessors[static_cast<std::size_t>(primitive_.attributes.at(name))];
+    return load_.document.model.accessors[static_cast<std::size_t>(primitive_.attributes.at(name))];
   }
 
   /// The ids of the attributes by name; the primitive has each of them, and POSITION is among them.
@@ -105,7 +94,7 @@ class PrimitiveDecoding {
                          pointerTo(pointer, name), shapeText(accessor.componentType, componentsOf(accessor.type)),
                          shapeText(type, components));
       }
-      if (accessor.count != accessorOf("POSITION").count) continue; // told where the accessors are gathered
+      if (accessor.count != accessorOf("POSITION").count) continue; // reported where the accessors are gathered
       AccessorView view;
       view.count = mesh.points;
       view.components = components;
@@ -122,8 +111,7 @@ class PrimitiveDecoding {
     return decoded;
   }
 
-  const GltfDocument& document_;
-  const Limits& limits_;
+  const LoadContext& load_;
   Findings& findings_;
   const gltf::Primitive& primitive_; ///< with `draco`
   std::string pointer_;
@@ -149,53 +137,6 @@ DracoPrimitives decodeDracoPrimitives(const LoadContext& load) {
     }
   }
   return decoded;
-}
-
-namespace {
-
-/// One value a point; nothing where the attribute is none that a glTF may have.
-std::optional<DracoAttribute> attributeOf(const draco::PointAttribute& source, std::uint32_t points) {
-  const auto* row = std::ranges::find(kTypes, source.data_type(), &TypeRow::draco);
-  if (row == kTypes.end() || source.num_components() < 1 || source.num_components() > 4) return std::nullopt;
-  DracoAttribute attribute{row->type, source.num_components(), {}};
-  const std::size_t bytes = bytesOf(row->type) * static_cast<std::size_t>(attribute.components);
-  if (source.byte_stride() != static_cast<std::int64_t>(bytes)) return std::nullopt;
-  attribute.bytes.resize(bytes * points);
-  for (std::uint32_t point = 0; point < points; ++point) {
-    const draco::AttributeValueIndex value = source.mapped_index(draco::PointIndex(point));
-    if (value.value() >= source.size()) return std::nullopt;
-    source.GetValue(value, attribute.bytes.data() + bytes * point);
-  }
-  return attribute;
-}
-
-} // namespace
-
-std::optional<DracoMesh> keptMesh(const draco::Mesh& mesh, const std::set<std::uint32_t>& wanted,
-                                  const std::string& pointer, Findings& findings) {
-  DracoMesh kept;
-  kept.points = mesh.num_points();
-  kept.corners.reserve(std::size_t{3} * mesh.num_faces());
-  for (std::uint32_t face = 0; face < mesh.num_faces(); ++face) {
-    for (const auto& corner : mesh.face(draco::FaceIndex(face))) kept.corners.push_back(corner.value());
-  }
-  const auto outside = [&](std::uint32_t corner) { return corner >= mesh.num_points(); };
-  if (std::any_of(kept.corners.begin(), kept.corners.end(), outside)) {
-    findings.invalid(pointer, "The Draco data is damaged.");
-    return std::nullopt;
-  }
-  for (const std::uint32_t id : wanted) {
-    const draco::PointAttribute* source = mesh.GetAttributeByUniqueId(id);
-    auto attribute = source ? attributeOf(*source, mesh.num_points()) : std::nullopt;
-    if (!attribute) {
-      findings.repair(
-          {"Draco data lacks an attribute, or has it in a type that a glTF does not have", "it is left out"}, pointer,
-          {}, "attribute " + std::to_string(id));
-      continue;
-    }
-    kept.attributes.emplace(id, *std::move(attribute));
-  }
-  return kept;
 }
 
 } // namespace gnomon

@@ -1,5 +1,5 @@
-#include "renderer/scene/decode/draco_stream.h"
-
+#include <algorithm>
+#include <array>
 #include <draco/compression/attributes/prediction_schemes/mesh_prediction_scheme_data.h>
 #include <draco/compression/attributes/prediction_schemes/mesh_prediction_scheme_tex_coords_decoder.h>
 #include <draco/compression/attributes/prediction_schemes/mesh_prediction_scheme_tex_coords_portable_decoder.h>
@@ -8,6 +8,7 @@
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/compression/mesh/mesh_sequential_decoder.h>
 #include <draco/core/varint_decoding.h>
+#include <draco/mesh/mesh.h>
 #include <draco/mesh/mesh_attribute_corner_table.h>
 #include <type_traits>
 
@@ -80,7 +81,7 @@ namespace gnomon {
 
 namespace {
 
-/// What is checked while a stream is decoded, and where it is told.
+/// The checks of a stream while it is decoded, and where they report.
 struct StreamCheck {
   const DracoClaims& claims;
   const Limits& limits;
@@ -179,6 +180,59 @@ bool run(draco::MeshDecoder&& decoder, std::span<const std::uint8_t> stream, dra
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(stream.data()), stream.size());
   return decoder.Decode(draco::DecoderOptions(), &buffer, &mesh).ok();
+}
+
+using DracoType = std::pair<draco::DataType, ComponentType>;
+constexpr std::array<DracoType, 6> kTypes{{{draco::DT_INT8, ComponentType::int8},
+                                           {draco::DT_UINT8, ComponentType::uint8},
+                                           {draco::DT_INT16, ComponentType::int16},
+                                           {draco::DT_UINT16, ComponentType::uint16},
+                                           {draco::DT_UINT32, ComponentType::uint32},
+                                           {draco::DT_FLOAT32, ComponentType::float32}}};
+
+/// One value a point; nothing where the attribute is none that a glTF may have.
+std::optional<DracoAttribute> attributeOf(const draco::PointAttribute& source, std::uint32_t points) {
+  const auto* type = std::ranges::find(kTypes, source.data_type(), &DracoType::first);
+  if (type == kTypes.end() || source.num_components() < 1 || source.num_components() > 4) return std::nullopt;
+  DracoAttribute attribute{type->second, source.num_components(), {}};
+  const std::size_t bytes = bytesOf(type->second) * static_cast<std::size_t>(attribute.components);
+  if (source.byte_stride() != static_cast<std::int64_t>(bytes)) return std::nullopt;
+  attribute.bytes.resize(bytes * points);
+  for (std::uint32_t point = 0; point < points; ++point) {
+    const draco::AttributeValueIndex value = source.mapped_index(draco::PointIndex(point));
+    if (value.value() >= source.size()) return std::nullopt;
+    source.GetValue(value, attribute.bytes.data() + bytes * point);
+  }
+  return attribute;
+}
+
+/// Triangles and the attributes `wanted` of a decoded mesh, without those of other types than glTF's; nothing, and a
+/// problem, where an index lies outside of it.
+std::optional<DracoMesh> keptMesh(const draco::Mesh& mesh, const std::set<std::uint32_t>& wanted,
+                                  const std::string& pointer, Findings& findings) {
+  DracoMesh kept;
+  kept.points = mesh.num_points();
+  kept.corners.reserve(std::size_t{3} * mesh.num_faces());
+  for (std::uint32_t face = 0; face < mesh.num_faces(); ++face) {
+    for (const auto& corner : mesh.face(draco::FaceIndex(face))) kept.corners.push_back(corner.value());
+  }
+  const auto outside = [&](std::uint32_t corner) { return corner >= mesh.num_points(); };
+  if (std::any_of(kept.corners.begin(), kept.corners.end(), outside)) {
+    findings.invalid(pointer, "The Draco data is damaged.");
+    return std::nullopt;
+  }
+  for (const std::uint32_t id : wanted) {
+    const draco::PointAttribute* source = mesh.GetAttributeByUniqueId(id);
+    auto attribute = source ? attributeOf(*source, mesh.num_points()) : std::nullopt;
+    if (!attribute) {
+      findings.repair(
+          {"Draco data lacks an attribute, or has it in a type that a glTF does not have", "it is left out"}, pointer,
+          {}, "attribute " + std::to_string(id));
+      continue;
+    }
+    kept.attributes.emplace(id, *std::move(attribute));
+  }
+  return kept;
 }
 
 } // namespace

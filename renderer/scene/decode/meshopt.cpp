@@ -5,6 +5,7 @@
 #include <meshoptimizer.h>
 
 #include "renderer/core/stop.h"
+#include "renderer/scene/container/resources.h"
 
 namespace gnomon {
 
@@ -38,8 +39,7 @@ const Stream& streamOf(MeshoptMode mode) {
   return kStreams[static_cast<std::size_t>(mode)];
 }
 
-/// The fewest bytes that hold the elements (EXT_meshopt_compression, Appendix A): a triangle takes a byte and an index
-/// takes one, 64 values of one byte of an attribute take a byte, and each stream has a header and a tail.
+/// The fewest bytes that hold the elements (EXT_meshopt_compression, Appendix A), with header and tail.
 std::uint64_t fewestBytes(const gltf::Meshopt& view) {
   switch (view.mode) {
     case MeshoptMode::triangles:

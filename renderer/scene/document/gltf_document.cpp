@@ -1,6 +1,5 @@
 #include "renderer/scene/document/gltf_document.h"
 
-#include "renderer/scene/checks/extension_gate.h"
 #include "renderer/scene/checks/gltf_schema.h"
 #include "renderer/scene/container/json_text.h"
 #include "renderer/scene/container/model_container.h"
@@ -9,7 +8,6 @@
 #include "renderer/scene/document/read_model.h"
 #include "renderer/scene/graph/attachments.h"
 #include "renderer/scene/graph/node_tree.h"
-#include "renderer/scene/graph/scene_roots.h"
 
 namespace gnomon {
 

@@ -1,4 +1,3 @@
-#include "renderer/scene/document/gltf_json.h"
 #include "renderer/scene/document/read_model.h"
 
 namespace gnomon {

@@ -4,8 +4,6 @@
 #include <array>
 #include <utility>
 
-#include "renderer/scene/document/gltf_json.h"
-
 namespace gnomon {
 
 namespace {

@@ -1,10 +1,10 @@
-#include "renderer/scene/geometry/accessor_checks.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
 #include "renderer/core/stop.h"
+#include "renderer/scene/document/gltf_document.h"
+#include "renderer/scene/geometry/accessor_view.h"
 
 namespace gnomon {
 
@@ -19,20 +19,11 @@ struct ElementShape {
 
 ElementShape shapeOf(ElementType type, ComponentType componentType) {
   const std::size_t component = bytesOf(componentType);
-  const auto matrix = [&](std::size_t side) {
-    const std::size_t column = (side * component + 3) / 4 * 4;
-    return ElementShape{0, column * side};
-  };
-  switch (type) {
-    case ElementType::mat2:
-      return matrix(2);
-    case ElementType::mat3:
-      return matrix(3);
-    case ElementType::mat4:
-      return matrix(4);
-    default:
-      return {componentsOf(type), static_cast<std::size_t>(componentsOf(type)) * component};
+  if (type <= ElementType::vec4) {
+    return {componentsOf(type), static_cast<std::size_t>(componentsOf(type)) * component};
   }
+  const std::size_t side = 2 + static_cast<std::size_t>(type) - static_cast<std::size_t>(ElementType::mat2);
+  return {0, (side * component + 3) / 4 * 4 * side};
 }
 
 /// A run of elements in a buffer view.
@@ -144,28 +135,6 @@ AccessorView viewAccessor(const GltfDocument& document, const gltf::Accessor& ac
   return sound ? view : kFaultyAccessor;
 }
 
-} // namespace
-
-std::vector<AccessorView> viewAccessors(const GltfDocument& document, const Limits& limits, Findings& findings) {
-  std::vector<AccessorView> views;
-  views.reserve(document.model.accessors.size());
-  std::size_t sparseValues = 0;
-  for (std::size_t i = 0; i < document.model.accessors.size(); ++i) {
-    stopIfAsked();
-    const gltf::Accessor& accessor = document.model.accessors[i];
-    if (accessor.sparse) sparseValues += accessor.sparse->count;
-    if (sparseValues > limits.maxVertices) { // each of them is looked at, so many accessors on few bytes cost time
-      findings.tooLarge("/accessors", "The accessors have too many sparse values.", std::to_string(limits.maxVertices),
-                        std::to_string(sparseValues));
-      return {};
-    }
-    views.push_back(viewAccessor(document, accessor, pointerTo("/accessors", i), findings));
-  }
-  return views;
-}
-
-namespace {
-
 /// Of what is stated, and of the extent: numbers in JSON are rounded.
 constexpr double kBoundsRounding = 1e-4;
 
@@ -221,6 +190,24 @@ bool agree(const std::vector<double>& stated, const glm::dvec4& found, const Ele
 }
 
 } // namespace
+
+std::vector<AccessorView> viewAccessors(const GltfDocument& document, const Limits& limits, Findings& findings) {
+  std::vector<AccessorView> views;
+  views.reserve(document.model.accessors.size());
+  std::size_t sparseValues = 0;
+  for (std::size_t i = 0; i < document.model.accessors.size(); ++i) {
+    stopIfAsked();
+    const gltf::Accessor& accessor = document.model.accessors[i];
+    if (accessor.sparse) sparseValues += accessor.sparse->count;
+    if (sparseValues > limits.maxVertices) { // each of them is looked at, so many accessors on few bytes cost time
+      findings.tooLarge("/accessors", "The accessors have too many sparse values.", std::to_string(limits.maxVertices),
+                        std::to_string(sparseValues));
+      return {};
+    }
+    views.push_back(viewAccessor(document, accessor, pointerTo("/accessors", i), findings));
+  }
+  return views;
+}
 
 void checkContents(const LoadContext& load) {
   const std::vector<gltf::Accessor>& accessors = load.document.model.accessors;

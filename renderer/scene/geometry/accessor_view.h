@@ -3,10 +3,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "renderer/scene/document/gltf_model.h"
 
 namespace gnomon {
+
+class Findings;
+struct GltfDocument;
+struct Limits;
+struct LoadContext;
 
 std::size_t bytesOf(ComponentType type);
 
@@ -16,8 +22,7 @@ int componentsOf(ElementType type);
 /// A little-endian unsigned integer; `type` must be one of the unsigned types.
 std::uint32_t unsignedAt(const std::uint8_t* bytes, ComponentType type);
 
-/// Reads the elements of an accessor whose ranges have been checked: every element below `count` lies in its buffer.
-/// Sparse values are found by binary search, so nothing is copied.
+/// An accessor whose ranges have been checked; sparse values are found by binary search.
 struct AccessorView {
   const std::uint8_t* data = nullptr; ///< of the first element; nullptr = all zero
   std::size_t count = 0;
@@ -53,5 +58,11 @@ struct AccessorView {
 
 /// Of no use to any reader: it has no elements, and its type is none that is read.
 inline constexpr AccessorView kFaultyAccessor{.components = 0, .faulty = true};
+
+/// A view of each accessor; kFaultyAccessor, and a repair, of those that can't be read.
+std::vector<AccessorView> viewAccessors(const GltfDocument& document, const Limits& limits, Findings& findings);
+
+/// Reports accessors with floats that are not finite or with a wrong min or max, also those that nothing uses.
+void checkContents(const LoadContext& load);
 
 } // namespace gnomon

@@ -7,10 +7,10 @@
 
 #include "renderer/core/parallel.h"
 #include "renderer/core/stop.h"
-#include "renderer/scene/geometry/mesh_content.h"
-#include "renderer/scene/geometry/triangle_mesh.h"
+#include "renderer/scene/geometry/mesh_source.h"
 #include "renderer/scene/geometry/welding.h"
 #include "renderer/scene/posing/deformation.h"
+#include "renderer/scene/shared_content.h"
 
 namespace gnomon {
 
@@ -106,8 +106,7 @@ void readVertices(ReadPrimitive& of) {
   if (!of.source.deforms()) of.outline = outlineOf(of.mesh);
 }
 
-/// Primitives are read in parallel and appended one after the other: so many at a time that there is work to share and
-/// little memory lies in between.
+/// Reads primitives in parallel, kMostCorners at a time, and appends them in order.
 class MeshBuilder {
  public:
   MeshBuilder(int defaultMaterial, Scene& scene, std::vector<Deformable>& deformables, Findings& findings,
@@ -171,26 +170,6 @@ class MeshBuilder {
   std::size_t corners_ = 0; ///< of all that are read
 };
 
-} // namespace
-
-int appendPrimitive(const TriangleMesh& mesh, int material, Scene& scene) {
-  return append(mesh, outlineOf(mesh), material, scene);
-}
-
-std::vector<BuiltMesh> buildMeshes(const std::vector<std::vector<PrimitiveSource>>& meshes, int defaultMaterial,
-                                   Scene& scene, std::vector<Deformable>& deformables, Findings& findings,
-                                   KnownContent* known) {
-  std::vector<BuiltMesh> built(meshes.size());
-  MeshBuilder builder(defaultMaterial, scene, deformables, findings, known);
-  for (std::size_t m = 0; m < meshes.size(); ++m) {
-    for (const PrimitiveSource& source : meshes[m]) builder.read(source, built[m]);
-  }
-  builder.build();
-  return built;
-}
-
-namespace {
-
 /// The vertices of a cluster, ascending; `indices` become places among them.
 std::vector<std::uint32_t> numberAnew(std::span<std::uint32_t> indices) {
   const auto [least, most] = std::minmax_element(indices.begin(), indices.end());
@@ -216,8 +195,7 @@ std::vector<std::uint32_t> numberAnew(std::span<std::uint32_t> indices) {
   return vertices;
 }
 
-/// Reorders the triangles of one cluster. Its vertices are numbered anew for that, so that the library's tables are as
-/// small as the cluster.
+/// Reorders the triangles of one cluster, over vertices numbered from 0 so that the library's tables stay small.
 void orderCluster(std::span<std::uint32_t> indices) {
   const std::vector<std::uint32_t> vertices = numberAnew(indices);
   std::vector<std::uint32_t> sorted(indices.size());
@@ -233,6 +211,22 @@ std::vector<T> moved(const std::vector<T>& values, const std::vector<std::uint32
 }
 
 } // namespace
+
+int appendPrimitive(const TriangleMesh& mesh, int material, Scene& scene) {
+  return append(mesh, outlineOf(mesh), material, scene);
+}
+
+std::vector<BuiltMesh> buildMeshes(const std::vector<std::vector<PrimitiveSource>>& meshes, int defaultMaterial,
+                                   Scene& scene, std::vector<Deformable>& deformables, Findings& findings,
+                                   KnownContent* known) {
+  std::vector<BuiltMesh> built(meshes.size());
+  MeshBuilder builder(defaultMaterial, scene, deformables, findings, known);
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    for (const PrimitiveSource& source : meshes[m]) builder.read(source, built[m]);
+  }
+  builder.build();
+  return built;
+}
 
 std::vector<std::uint32_t> spatiallySorted(std::vector<std::uint32_t> indices, std::span<const glm::vec3> positions) {
   if (indices.size() <= std::size_t{3} * kClusterTriangles) return indices;

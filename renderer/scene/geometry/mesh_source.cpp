@@ -9,8 +9,7 @@ namespace gnomon {
 
 namespace {
 
-/// How an attribute is read: which numbers of components have a meaning, and which of them glTF allows. What is beyond
-/// the allowed ones is not looked at.
+/// The numbers of components of an attribute that can be read, and that glTF allows.
 struct AttributeShape {
   int fewest = 3;
   int mostAllowed = 3;
@@ -36,11 +35,7 @@ class PrimitiveGathering {
  public:
   PrimitiveGathering(const LoadContext& load, const gltf::Primitive& primitive, const DracoPrimitive* draco,
                      std::string pointer)
-      : primitive_(primitive),
-        accessors_(load.document.model.accessors),
-        views_(load.accessors),
-        draco_(draco),
-        findings_(load.findings) {
+      : primitive_(primitive), load_(load), draco_(draco), findings_(load.findings) {
     source_.pointer = std::move(pointer);
   }
 
@@ -77,7 +72,7 @@ class PrimitiveGathering {
   void checkBounds(const gltf::Attributes& attributes, const std::string& pointer) {
     const auto found = attributes.find("POSITION");
     if (found == attributes.end()) return;
-    const gltf::Accessor& accessor = accessors_[static_cast<std::size_t>(found->second)];
+    const gltf::Accessor& accessor = load_.document.model.accessors[static_cast<std::size_t>(found->second)];
     if (!accessor.faulty && (accessor.min.empty() || accessor.max.empty())) {
       findings_.repair(kNoBounds, pointer + "/POSITION");
     }
@@ -86,7 +81,7 @@ class PrimitiveGathering {
   /// Those of the application are not read.
   void checkOwnAttributes() {
     for (const auto& [name, accessor] : primitive_.attributes) {
-      const gltf::Accessor& own = accessors_[static_cast<std::size_t>(accessor)];
+      const gltf::Accessor& own = load_.document.model.accessors[static_cast<std::size_t>(accessor)];
       if (!name.starts_with('_') || own.faulty || own.componentType != ComponentType::uint32) continue;
       findings_.repair({"A vertex attribute of the application's own has 32-bit integers", "it is not used"},
                        pointerOf(name));
@@ -125,7 +120,7 @@ class PrimitiveGathering {
       const auto decoded = draco_->attributes.find(name);
       if (decoded != draco_->attributes.end()) return decoded->second;
     }
-    return views_[static_cast<std::size_t>(accessor)];
+    return load_.accessors[static_cast<std::size_t>(accessor)];
   }
 
   /// What is read where 1 is meant: the greatest value of integers that should be normalized and are not.
@@ -166,7 +161,8 @@ class PrimitiveGathering {
                                     : name == "NORMAL"  ? &target.normals
                                     : name == "TANGENT" ? &target.tangents
                                                         : nullptr;
-      if (member) *member = checked(views_[static_cast<std::size_t>(accessor)], pointerTo(pointer, name), {3, 3});
+      if (member)
+        *member = checked(load_.accessors[static_cast<std::size_t>(accessor)], pointerTo(pointer, name), {3, 3});
     }
     source_.targets.push_back(target);
   }
@@ -179,7 +175,7 @@ class PrimitiveGathering {
     }
     if (primitive_.indices < 0) return true;
     const auto accessor = static_cast<std::size_t>(primitive_.indices);
-    const AccessorView& view = views_[accessor];
+    const AccessorView& view = load_.accessors[accessor];
     const ComponentType type = view.componentType;
     const bool isUnsigned =
         type == ComponentType::uint8 || type == ComponentType::uint16 || type == ComponentType::uint32;
@@ -191,8 +187,7 @@ class PrimitiveGathering {
   }
 
   const gltf::Primitive& primitive_;
-  const std::vector<gltf::Accessor>& accessors_;
-  const std::vector<AccessorView>& views_;
+  const LoadContext& load_;
   const DracoPrimitive* draco_; ///< nullptr = not compressed
   Findings& findings_;
   PrimitiveSource source_;
@@ -208,11 +203,15 @@ std::size_t mostVertices(const PrimitiveSource& source) {
   return source.normals ? std::min(source.positions->count, separate) : separate;
 }
 
-/// Every primitive of a mesh has the same number of targets (glTF 2.0, 3.7.2.2): those that a primitive lacks move
-/// nothing.
-void evenTargets(const gltf::Mesh& mesh, PrimitiveSource& source, Findings& findings) {
+std::size_t mostTargets(const gltf::Mesh& mesh) {
   std::size_t most = 0;
   for (const gltf::Primitive& primitive : mesh.primitives) most = std::max(most, primitive.targets.size());
+  return most;
+}
+
+/// Gives all primitives of a mesh as many targets (glTF 2.0, 3.7.2.2): added ones move nothing.
+void evenTargets(const gltf::Mesh& mesh, PrimitiveSource& source, Findings& findings) {
+  const std::size_t most = mostTargets(mesh);
   if (source.targets.size() == most) return;
   findings.repair({"A primitive has fewer morph targets than another of its mesh", "what it lacks moves nothing"},
                   source.pointer + "/targets", std::to_string(most), std::to_string(source.targets.size()));
@@ -221,8 +220,7 @@ void evenTargets(const gltf::Mesh& mesh, PrimitiveSource& source, Findings& find
 
 void checkWeights(const gltf::Mesh& mesh, const std::string& pointer, Findings& findings) {
   if (!mesh.weights) return;
-  std::size_t targets = 0;
-  for (const gltf::Primitive& primitive : mesh.primitives) targets = std::max(targets, primitive.targets.size());
+  const std::size_t targets = mostTargets(mesh);
   if (mesh.weights->size() == targets) return;
   findings.repair(kOtherWeights, pointer + "/weights", std::to_string(targets), std::to_string(mesh.weights->size()));
 }
@@ -277,7 +275,7 @@ std::vector<std::vector<PrimitiveSource>> gatherMeshes(const LoadContext& load, 
         continue;
       }
       const auto compressed = draco.find({m, p});
-      if (primitive.draco && compressed == draco.end()) continue; // told where it is decoded
+      if (primitive.draco && compressed == draco.end()) continue; // reported where it is decoded
       auto gathered =
           PrimitiveGathering(load, primitive, compressed == draco.end() ? nullptr : &compressed->second, pointer)
               .gather(variantMaterials(model, primitive), uvSets);

@@ -2,14 +2,31 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
 #include "renderer/scene/decode/draco_primitives.h"
 #include "renderer/scene/geometry/accessor_view.h"
-#include "renderer/scene/materials/uv_sets.h"
+#include "renderer/scene/materials/materials.h"
+#include "renderer/scene/scene.h"
 
 namespace gnomon {
+
+struct PrimitiveSource;
+
+/// The vertices and triangles of one primitive.
+struct TriangleMesh {
+  std::vector<glm::vec3> positions;
+  std::vector<VertexAttributes> attributes; ///< parallel to positions
+  std::vector<std::uint32_t> sources;       ///< parallel to positions: the vertex of the accessors that each one was
+  std::vector<std::uint32_t> indices;       ///< three a triangle
+  bool hasTangents = false;
+  bool flat = false; ///< the file has no normals: each triangle has its own three vertices
+};
+
+/// Reads a primitive. Without normals it gets flat ones; normals and tangents that have no direction are replaced.
+TriangleMesh buildVertices(const PrimitiveSource& source, Findings& findings);
 
 /// Of a mesh or a node.
 inline const Repair kOtherWeights{"The number of weights differs from the number of morph targets",
@@ -45,10 +62,8 @@ struct PrimitiveSource {
   std::size_t triangles() const;
 };
 
-/// What is drawn of each mesh, in the order of the file; primitives that are not drawn are left out with a warning, as
-/// are attributes that do not hold what they should.
-/// Refuses before anything is allocated when the whole would pass the limits. `uvSets`: one a material. The
-/// accessors and `draco` must outlive the result.
+/// The drawable primitives of each mesh, in the order of the file; refuses what would pass the limits before anything
+/// is allocated. `uvSets`: one a material. The accessors and `draco` outlive the result.
 std::vector<std::vector<PrimitiveSource>> gatherMeshes(const LoadContext& load, const DracoPrimitives& draco,
                                                        const std::vector<UvSets>& uvSets);
 

@@ -1,5 +1,3 @@
-#include "renderer/scene/geometry/triangle_mesh.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <span>
 
 #include "renderer/core/aabb.h"
+#include "renderer/core/linear_algebra.h"
 #include "renderer/scene/geometry/mesh_source.h"
 
 namespace gnomon {
@@ -25,8 +24,8 @@ const Repair kNoDirection{"Normals or tangents have the length 0 or are not fini
                           "they are computed from the triangles"};
 const Repair kUvNotFinite{"Texture coordinates are not finite", "they count as 0"};
 
-/// The corners in the order of the file, before strips and fans are unrolled. `restarts`: where the primitive restart
-/// value stands among them.
+/// The corners in the order of the file, before strips and fans are unrolled. `restarts`: places of the primitive
+/// restart value.
 std::vector<std::uint32_t> readCorners(const PrimitiveSource& source, std::vector<std::size_t>& restarts,
                                        Findings& findings) {
   const std::size_t vertexCount = source.positions->count;
@@ -72,8 +71,8 @@ void unroll(std::span<const std::uint32_t> run, PrimitiveMode mode, std::vector<
   }
 }
 
-/// The corners of a primitive's triangles, three after three, as vertices of its accessors. Every corner is below
-/// positions->count: triangles with another are left out, and strips and fans begin again after a restart value.
+/// The corners of a primitive's triangles, three after three, all below positions->count; strips and fans begin again
+/// after a restart.
 std::vector<std::uint32_t> readTriangles(const PrimitiveSource& source, Findings& findings) {
   std::vector<std::size_t> restarts;
   std::vector<std::uint32_t> corners = readCorners(source, restarts, findings);
@@ -97,8 +96,7 @@ std::vector<std::uint32_t> readTriangles(const PrimitiveSource& source, Findings
   return triangles;
 }
 
-/// Drops triangles with a corner that is not finite, with a repair, and those without an area, unless a pose may give
-/// them one.
+/// Drops triangles that are not finite, with a repair, and those without an area unless a pose may give them one.
 void dropUndrawable(std::vector<std::uint32_t>& corners, const PrimitiveSource& source, Findings& findings) {
   std::size_t kept = 0;
   std::size_t notFinite = 0;
@@ -143,12 +141,6 @@ std::vector<std::uint32_t> compactVertices(std::vector<std::uint32_t>& corners, 
   return used;
 }
 
-/// The unit vector along v, or zero where there is none.
-glm::dvec3 directionOf(const glm::dvec3& v) {
-  const double length = glm::length(v);
-  return std::isfinite(length) && length > 0 ? v / length : glm::dvec3(0);
-}
-
 /// Any unit vector perpendicular to the unit vector n.
 glm::dvec3 perpendicularTo(const glm::dvec3& n) {
   const glm::dvec3 axis = std::abs(n.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
@@ -171,7 +163,7 @@ glm::dvec3 areaVector(const TriangleMesh& mesh, std::size_t corner) {
 /// Each triangle has its own vertices here.
 void setFlatNormals(TriangleMesh& mesh) {
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-    const glm::vec3 normal(directionOf(areaVector(mesh, i)));
+    const glm::vec3 normal(unitOr(areaVector(mesh, i), glm::dvec3(0)));
     for (std::size_t corner = 0; corner < 3; ++corner) mesh.attributes[mesh.indices[i + corner]].normal = normal;
   }
 }
@@ -187,7 +179,7 @@ bool replaceMissingNormals(TriangleMesh& mesh) {
   }
   for (std::size_t vertex = 0; vertex < area.size(); ++vertex) {
     if (mesh.attributes[vertex].normal != glm::vec3(0)) continue;
-    const glm::dvec3 direction = directionOf(area[vertex]);
+    const glm::dvec3 direction = unitOr(area[vertex], glm::dvec3(0));
     mesh.attributes[vertex].normal = direction == glm::dvec3(0) ? glm::vec3(0, 0, 1) : glm::vec3(direction);
   }
   return !area.empty();
@@ -198,7 +190,7 @@ bool setTangents(TriangleMesh& mesh, const AccessorView& view) {
   bool replaced = false;
   for (std::size_t i = 0; i < mesh.sources.size(); ++i) {
     const glm::dvec4 tangent = view.read(mesh.sources[i]);
-    glm::dvec3 direction = directionOf(glm::dvec3(tangent));
+    glm::dvec3 direction = unitOr(glm::dvec3(tangent), glm::dvec3(0));
     if (direction == glm::dvec3(0)) {
       direction = perpendicularTo(glm::dvec3(mesh.attributes[i].normal));
       replaced = true;
@@ -218,7 +210,7 @@ glm::vec2 texCoordAt(const AccessorView* view, std::uint32_t vertex, bool& someN
 
 VertexAttributes attributesAt(const PrimitiveSource& source, std::uint32_t vertex, bool& someUvNotFinite) {
   VertexAttributes attributes;
-  if (source.normals) attributes.normal = glm::vec3(directionOf(glm::dvec3(source.normals->read(vertex))));
+  if (source.normals) attributes.normal = glm::vec3(unitOr(glm::dvec3(source.normals->read(vertex)), glm::dvec3(0)));
   attributes.uv0 = texCoordAt(source.texCoords[0], vertex, someUvNotFinite);
   attributes.uv1 = texCoordAt(source.texCoords[1], vertex, someUvNotFinite);
   if (source.colors) {

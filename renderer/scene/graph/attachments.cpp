@@ -38,6 +38,41 @@ void checkOrthographic(const gltf::OrthographicLens& lens, const std::string& po
   }
 }
 
+constexpr double kConeRounding = 1e-4 * std::numbers::pi / 2; // of the range of a cone's angle, radians
+constexpr double kWidestConeDegrees = 89.9;                   // a cone of 90 has no picture plane
+
+double degrees(double radians) {
+  return radians * 180.0 / std::numbers::pi;
+}
+
+/// How many times a light's color is beyond 1.
+double brightest(const gltf::PunctualLight& light) {
+  return light.color ? std::max({1.0, (*light.color)[0], (*light.color)[1], (*light.color)[2]}) : 1.0;
+}
+
+void checkCone(gltf::SpotCone& cone, const std::string& pointer, Findings& findings) {
+  if (cone.inner < cone.outer) return;
+  if (cone.inner - cone.outer > kConeRounding) {
+    return findings.invalid(pointer, "The inner cone of a spot light is wider than the outer one.");
+  }
+  findings.repair({"The inner cone of a spot light is as wide as the outer one", "the edge of its light is sharp"},
+                  pointer);
+  cone.inner = cone.outer;
+}
+
+bool isOfType(const std::string& name, const AccessorView& view) {
+  const bool isFloat = view.componentType == ComponentType::float32;
+  if (name != "ROTATION") return view.components == 3 && isFloat;
+  const bool isShort = view.componentType == ComponentType::int8 || view.componentType == ComponentType::int16;
+  return view.components == 4 && (isFloat || (isShort && view.normalized));
+}
+
+const AccessorView** memberOf(Instancing& instancing, const std::string& name) {
+  if (name == "TRANSLATION") return &instancing.translations;
+  if (name == "ROTATION") return &instancing.rotations;
+  return name == "SCALE" ? &instancing.scales : nullptr;
+}
+
 } // namespace
 
 void checkCameras(std::vector<gltf::Camera>& cameras, Findings& findings) {
@@ -108,32 +143,6 @@ std::optional<SceneCamera> placedAt(const glm::dmat4& worldFromUnscaled, SceneCa
   return camera;
 }
 
-namespace {
-
-constexpr double kConeRounding = 1e-4 * std::numbers::pi / 2; // of the range of a cone's angle, radians
-constexpr double kWidestConeDegrees = 89.9;                   // a cone of 90 has no picture plane
-
-double degrees(double radians) {
-  return radians * 180.0 / std::numbers::pi;
-}
-
-/// How many times a light's color is beyond 1.
-double brightest(const gltf::PunctualLight& light) {
-  return light.color ? std::max({1.0, (*light.color)[0], (*light.color)[1], (*light.color)[2]}) : 1.0;
-}
-
-void checkCone(gltf::SpotCone& cone, const std::string& pointer, Findings& findings) {
-  if (cone.inner < cone.outer) return;
-  if (cone.inner - cone.outer > kConeRounding) {
-    return findings.invalid(pointer, "The inner cone of a spot light is wider than the outer one.");
-  }
-  findings.repair({"The inner cone of a spot light is as wide as the outer one", "the edge of its light is sharp"},
-                  pointer);
-  cone.inner = cone.outer;
-}
-
-} // namespace
-
 void checkLights(std::vector<gltf::PunctualLight>& lights, Findings& findings) {
   for (std::size_t i = 0; i < lights.size(); ++i) {
     gltf::PunctualLight& light = lights[i];
@@ -197,23 +206,6 @@ std::optional<SceneLight> placedAt(const glm::dmat4& worldFromUnscaled, SceneLig
   if (!kind.parallel) light.light.position = toTriple(frame.position);
   return light;
 }
-
-namespace {
-
-bool isOfType(const std::string& name, const AccessorView& view) {
-  const bool isFloat = view.componentType == ComponentType::float32;
-  if (name != "ROTATION") return view.components == 3 && isFloat;
-  const bool isShort = view.componentType == ComponentType::int8 || view.componentType == ComponentType::int16;
-  return view.components == 4 && (isFloat || (isShort && view.normalized));
-}
-
-const AccessorView** memberOf(Instancing& instancing, const std::string& name) {
-  if (name == "TRANSLATION") return &instancing.translations;
-  if (name == "ROTATION") return &instancing.rotations;
-  return name == "SCALE" ? &instancing.scales : nullptr;
-}
-
-} // namespace
 
 std::optional<glm::dmat4> Instancing::nodeFromCopy(std::size_t copy) const {
   glm::dmat4 matrix(1);

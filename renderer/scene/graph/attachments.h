@@ -10,8 +10,7 @@
 #include "renderer/scene/findings.h"
 #include "renderer/scene/scene.h"
 
-/// What a file hangs on its nodes: cameras, lights (KHR_lights_punctual), and copies of meshes
-/// (EXT_mesh_gpu_instancing).
+/// Cameras, lights (KHR_lights_punctual) and copies of meshes (EXT_mesh_gpu_instancing) on the nodes of a file.
 namespace gnomon {
 
 struct AccessorView;
@@ -23,8 +22,7 @@ struct FileCamera {
   std::size_t source = 0; ///< index into the file's cameras
 };
 
-/// Checks what the schema can't: the lens that the type asks for, and far beyond near. Those that are faulty are
-/// marked, with a repair.
+/// Checks that the lens of the type exists and that far is beyond near; marks faulty cameras, with a repair.
 void checkCameras(std::vector<gltf::Camera>& cameras, Findings& findings);
 
 /// `camera` with the lens of one of the file's cameras, which has passed checkCameras().
@@ -45,8 +43,7 @@ struct FileLight {
   std::size_t source = 0; ///< index into the file's lights
 };
 
-/// Checks what the schema can't: that a spot light has a cone, which is not wider inside than outside. Those that are
-/// faulty are marked, with a repair.
+/// Checks that a spot light has a cone, no wider inside than outside; marks faulty lights, with a repair.
 void checkLights(std::vector<gltf::PunctualLight>& lights, Findings& findings);
 
 /// One of the file's lights, without a place. It has passed checkLights().
@@ -65,13 +62,11 @@ struct Instancing {
   const AccessorView* rotations = nullptr;
   const AccessorView* scales = nullptr;
 
-  /// Where the copy stands, relative to the node. Nothing where its rotation has no direction or a number is not
-  /// finite.
+  /// Relative to the node; nothing where a number is not finite or the rotation has no direction.
   std::optional<glm::dmat4> nodeFromCopy(std::size_t copy) const;
 };
 
-/// The instancing of a node that has it; nothing, and perhaps a problem, otherwise. The
-/// accessors must outlive the result.
+/// The instancing of a node; nothing, and perhaps a repair, otherwise. The accessors outlive the result.
 std::optional<Instancing> instancingOf(const LoadContext& load, std::size_t node);
 
 } // namespace gnomon

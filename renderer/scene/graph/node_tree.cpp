@@ -191,17 +191,6 @@ NodeTree buildNodeTree(const gltf::Model& model, Findings& findings) {
   return tree;
 }
 
-std::vector<SceneNode> namedNodes(const gltf::Model& model) {
-  std::vector<SceneNode> nodes(model.nodes.size());
-  for (std::size_t node = 0; node < nodes.size(); ++node) {
-    nodes[node].name = model.nodes[node].name;
-    for (const int child : model.nodes[node].children) {
-      nodes[static_cast<std::size_t>(child)].parent = static_cast<int>(node);
-    }
-  }
-  return nodes;
-}
-
 bool frameOf(const glm::dmat4& worldFromUnscaled, NodeFrame& frame) {
   frame.position = glm::dvec3(worldFromUnscaled[3]);
   const double depth = glm::length(glm::dvec3(worldFromUnscaled[2]));

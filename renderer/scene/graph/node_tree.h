@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "protocol/spec/limits.h"
 #include "renderer/scene/document/gltf_model.h"
 #include "renderer/scene/findings.h"
 #include "renderer/scene/scene.h"
@@ -28,14 +29,13 @@ struct NodeTransform {
 
 NodeTransform transformOf(const LocalTransform& local);
 
-/// A scale of which one axis is 0, or nearly so, as what it tends to from above: a body becomes a surface that keeps
-/// its front side. Others are as they were.
+/// A scale with at most a tiny thickness instead of one axis of 0, so that a surface keeps its front side.
 glm::dvec3 withThickness(const glm::dvec3& scale);
 
 /// Refuses nodes that have a matrix beside a translation, rotation or scale.
 void checkTransforms(const std::vector<gltf::Node>& nodes, Findings& findings);
 
-/// Where every node stands, whichever scene it belongs to.
+/// The places of all nodes.
 struct NodePlaces {
   std::vector<glm::dmat4> worldFromNode;
   std::vector<glm::dmat4> worldFromUnscaled; ///< without the node's own scale: what cameras and lights go by
@@ -64,13 +64,9 @@ struct NodeTree : NodePlaces {
   std::vector<bool> hidden;  ///< the node or one above it is not visible
 };
 
-/// Checks that the nodes form trees and that scenes name roots of them, and computes the matrices.
-/// Refuses matrices that are not affine and rotations of length zero. With a problem in the findings, the result is
-/// not to be used.
+/// The tree and its matrices. Problems, after which the result is unusable: nodes that form no tree, matrices that are
+/// not affine, rotations of length 0.
 NodeTree buildNodeTree(const gltf::Model& model, Findings& findings);
-
-/// Names and parents of the nodes, which have been found to be trees.
-std::vector<SceneNode> namedNodes(const gltf::Model& model);
 
 /// The axes of a node, orthonormal whatever scales it; false where the matrix leaves none.
 struct NodeFrame {
@@ -80,5 +76,14 @@ struct NodeFrame {
   glm::dvec3 forward{0, 0, -1}; ///< the node's -Z
 };
 bool frameOf(const glm::dmat4& worldFromUnscaled, NodeFrame& frame);
+
+/// Repairs scenes that list a child of another node: the child is drawn once, below its parent where a scene has that
+/// one, else as a root.
+void settleSceneRoots(gltf::Model& model, const Limits& limits, Findings& findings);
+
+/// Repairs skins whose joints stand in several trees, or in no scene although their mesh is in one. `order`: parents
+/// before children.
+void checkSkinRoots(const gltf::Model& model, const std::vector<int>& parents, const std::vector<int>& order,
+                    Findings& findings);
 
 } // namespace gnomon

@@ -1,13 +1,13 @@
-#include "renderer/scene/graph/scene_roots.h"
-
 #include <algorithm>
 #include <vector>
+
+#include "renderer/scene/graph/node_tree.h"
 
 namespace gnomon {
 
 namespace {
 
-/// Those of the roots and below, by their numbers. Nothing is taken for granted of the nodes.
+/// The roots and all below, by their numbers; the nodes need not be trees.
 std::vector<bool> reachedFrom(const std::vector<int>& roots, const std::vector<gltf::Node>& nodes) {
   std::vector<bool> reached(nodes.size());
   std::vector<int> open = roots;
@@ -76,7 +76,7 @@ void settleSceneRoots(gltf::Model& model, const Limits& limits, Findings& findin
     if (!listsChild(model.scenes[i])) continue;
     std::vector<int> open = model.scenes[i].nodes;
     while (!open.empty()) {
-      if (++placed > limits.maxInstances) return; // refused later, whichever are roots
+      if (++placed > limits.maxInstances) return; // refused later
       const auto node = static_cast<std::size_t>(open.back());
       open.pop_back();
       for (const int child : model.nodes[node].children) {

@@ -13,15 +13,7 @@ namespace {
 class Flattening {
  public:
   Flattening(const LoadContext& load, const LoadedMeshes& loaded, bool animated)
-      : load_(load),
-        nodes_(load.document.model.nodes),
-        tree_(loaded.tree),
-        meshes_(loaded.meshes),
-        posed_(loaded.posed),
-        primitives_(loaded.primitives),
-        limits_(load.limits),
-        findings_(load.findings),
-        animated_(animated) {}
+      : load_(load), loaded_(loaded), tree_(loaded.tree), findings_(load.findings), animated_(animated) {}
 
   std::vector<int> roots() const {
     std::vector<int> roots;
@@ -49,7 +41,7 @@ class Flattening {
   std::vector<int> reachedFrom(const std::vector<int>& roots) {
     std::vector<int> nodes = roots;
     for (std::size_t i = 0; i < nodes.size() && count(1, 1, "/scenes"); ++i) {
-      const auto& children = nodes_[static_cast<std::size_t>(nodes[i])].children;
+      const auto& children = load_.document.model.nodes[static_cast<std::size_t>(nodes[i])].children;
       nodes.insert(nodes.end(), children.begin(), children.end());
     }
     std::sort(nodes.begin(), nodes.end());
@@ -58,7 +50,7 @@ class Flattening {
 
   /// What hangs on a node is kept for every pose, also where that at rest leaves it out.
   void place(std::size_t node, SceneView& view, const std::string& pointer) {
-    const gltf::Node& source = nodes_[node];
+    const gltf::Node& source = load_.document.model.nodes[node];
     if (source.mesh >= 0 && (animated_ || !tree_.hidden[node])) placeMesh(node, view, pointer);
     if (const auto camera = cameraAt(load_.document.model, node, findings_)) {
       scenes_.moving.back().cameras.push_back(*camera);
@@ -92,18 +84,19 @@ class Flattening {
   }
 
   void placeMesh(std::size_t node, SceneView& view, const std::string& pointer) {
-    const BuiltMesh& mesh = meshes_[static_cast<std::size_t>(nodes_[node].mesh)];
+    const BuiltMesh& mesh = loaded_.meshes[static_cast<std::size_t>(load_.document.model.nodes[node].mesh)];
     std::vector<int> primitives = mesh.primitives;
-    primitives.insert(primitives.end(), posed_[node].followingNode.begin(), posed_[node].followingNode.end());
+    primitives.insert(primitives.end(), loaded_.posed[node].followingNode.begin(),
+                      loaded_.posed[node].followingNode.end());
     const auto instancing = instancingOf(load_, node);
     if (findings_.refused()) return;
-    if (!posed_[node].followingSkin.empty()) {
+    if (!loaded_.posed[node].followingSkin.empty()) {
       if (instancing) {
         findings_.warn("The mesh at node " + std::to_string(node) + " is skinned; its instances are not drawn.");
       }
-      if (!count(posed_[node].followingSkin.size(), 1, pointer)) return;
-      addPlacements(node, nodes_[node].skin, 0, glm::dmat4(1), posed_[node].followingSkin);
-      placeCopy(node, 0, posed_[node].worldFromSkin, posed_[node].followingSkin, view, pointer);
+      if (!count(loaded_.posed[node].followingSkin.size(), 1, pointer)) return;
+      addPlacements(node, load_.document.model.nodes[node].skin, 0, glm::dmat4(1), loaded_.posed[node].followingSkin);
+      placeCopy(node, 0, loaded_.posed[node].worldFromSkin, loaded_.posed[node].followingSkin, view, pointer);
     }
     const std::uint64_t copies = instancing ? instancing->count : 1;
     if (findings_.refused() || !count(primitives.size(), copies, pointer)) return;
@@ -130,11 +123,11 @@ class Flattening {
                      " is scaled by 0 along two axes or more and is not drawn.");
     }
     for (const int index : primitives) {
-      const Primitive& primitive = primitives_[static_cast<std::size_t>(index)];
+      const Primitive& primitive = loaded_.primitives[static_cast<std::size_t>(index)];
       const std::uint64_t triangles = primitive.indexCount / 3;
       triangles_ += triangles; // what another pose may show counts as well
-      if (triangles_ > limits_.maxTriangles) {
-        findings_.tooLarge(pointer, "The scenes have too many triangles.", std::to_string(limits_.maxTriangles),
+      if (triangles_ > load_.limits.maxTriangles) {
+        findings_.tooLarge(pointer, "The scenes have too many triangles.", std::to_string(load_.limits.maxTriangles),
                            std::to_string(triangles_));
         return;
       }
@@ -155,28 +148,24 @@ class Flattening {
     }
   }
 
-  /// Adds `copies` of so many to the nodes and primitives placed so far; false, and a problem, past the limit. Each
-  /// copy of nothing counts too, since it takes time.
+  /// Counts `copies` of so many nodes or primitives, empty copies too; false, and a problem, past the limit.
   bool count(std::uint64_t primitives, std::uint64_t copies, const std::string& pointer) {
     const std::uint64_t each = copies > 1 ? std::max<std::uint64_t>(primitives, 1) : primitives;
-    if (each == 0 || copies <= (limits_.maxInstances - placed_) / each) {
+    if (each == 0 || copies <= (load_.limits.maxInstances - placed_) / each) {
       placed_ += each * copies;
       return true;
     }
-    findings_.tooLarge(pointer, "The scenes place too many nodes and primitives.", std::to_string(limits_.maxInstances),
-                       copies > 1 ? std::to_string(copies) + " copies of " + std::to_string(primitives) + " after " +
-                                        std::to_string(placed_)
-                                  : std::to_string(placed_ + primitives));
+    findings_.tooLarge(
+        pointer, "The scenes place too many nodes and primitives.", std::to_string(load_.limits.maxInstances),
+        copies > 1
+            ? std::to_string(copies) + " copies of " + std::to_string(primitives) + " after " + std::to_string(placed_)
+            : std::to_string(placed_ + primitives));
     return false;
   }
 
   const LoadContext& load_;
-  const std::vector<gltf::Node>& nodes_;
+  const LoadedMeshes& loaded_;
   const NodeTree& tree_;
-  const std::vector<BuiltMesh>& meshes_;
-  const std::vector<PosedMesh>& posed_; ///< one a node
-  const std::vector<Primitive>& primitives_;
-  const Limits& limits_;
   Findings& findings_;
   bool animated_;
   FlatScenes scenes_;

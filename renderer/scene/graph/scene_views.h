@@ -6,7 +6,7 @@
 #include "renderer/scene/document/gltf_document.h"
 #include "renderer/scene/geometry/mesh_build.h"
 #include "renderer/scene/graph/node_tree.h"
-#include "renderer/scene/posing/posed_nodes.h"
+#include "renderer/scene/posing/pose.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {
@@ -25,8 +25,8 @@ struct LoadedMeshes {
   const std::vector<Primitive>& primitives;
 };
 
-/// Flattens every scene of the file, nodes in ascending order; a file without scenes gets one of all its roots.
-/// `animated`: whether the file has animations, which might show what the rest pose hides.
+/// Flattens every scene of the file, nodes in ascending order; a file without scenes gets one of all roots. `animated`:
+/// the file has animations.
 FlatScenes flattenScenes(const LoadContext& load, const LoadedMeshes& loaded, bool animated);
 
 } // namespace gnomon

@@ -63,8 +63,7 @@ std::array<const std::optional<gltf::TextureInfo>*, 5> textureInfosOf(const gltf
           &source.occlusionTexture, &source.emissiveTexture};
 }
 
-/// The image of a texture: its WebP where it has one, else that in a format of glTF's own; -1 = none, as where it
-/// has nothing but KHR_texture_basisu.
+/// The image of a texture: its WebP, else that in a format of glTF's own; -1 = none.
 int imageOf(const gltf::Texture& texture, std::size_t index, Findings& findings) {
   if (texture.webp >= 0) return texture.webp;
   if (texture.source < 0 && texture.basisu) {
@@ -98,6 +97,8 @@ std::optional<TextureUse> readTexture(const gltf::Model& model, const gltf::Text
   }
   return use;
 }
+
+constexpr const char* kPointer = "/extensions/KHR_materials_variants/variants";
 
 } // namespace
 
@@ -147,12 +148,6 @@ Material repainted(const Material& loaded, const gltf::Material& source) {
   }
   return material;
 }
-
-namespace {
-
-constexpr const char* kPointer = "/extensions/KHR_materials_variants/variants";
-
-} // namespace
 
 void checkVariantCount(const gltf::Model& model, const Limits& limits, Findings& findings) {
   const std::size_t variants = model.variants.size();

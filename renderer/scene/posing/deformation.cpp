@@ -45,8 +45,7 @@ bool isJoint(double number) {
   return number >= 0 && number <= std::numeric_limits<std::uint16_t>::max() && number == std::trunc(number);
 }
 
-/// Weights that do not sum to 1, by rounding or else, are scaled to; a vertex without weights follows its first joint.
-/// What is no number of a joint has no weight, and sets `someNoJoint`.
+/// Joints and weights, scaled to a sum of 1; without weights the first joint. `someNoJoint`: a weight was on no joint.
 Influences readInfluences(const PrimitiveSource& source, std::uint32_t vertex, bool& someNoJoint) {
   Influences influences;
   double sum = 0;
@@ -76,32 +75,6 @@ Influences readInfluences(const PrimitiveSource& source, std::uint32_t vertex, b
   return influences;
 }
 
-} // namespace
-
-Deformable buildDeformable(const PrimitiveSource& source, TriangleMesh mesh, Findings& findings) {
-  Deformable deformable;
-  for (std::size_t i = 0; i < source.targets.size(); ++i) {
-    deformable.targets.push_back(
-        readTarget(source.targets[i], mesh, pointerTo(source.pointer + "/targets", i), findings));
-  }
-  if (source.joints[0]) {
-    deformable.influences.reserve(mesh.sources.size());
-    bool someNoJoint = false;
-    for (const std::uint32_t vertex : mesh.sources) {
-      deformable.influences.push_back(readInfluences(source, vertex, someNoJoint));
-      const Influences& added = deformable.influences.back();
-      for (std::size_t i = 0; i < added.joints.size(); ++i) {
-        if (added.weights[i] > 0) deformable.greatestJoint = std::max<int>(deformable.greatestJoint, added.joints[i]);
-      }
-    }
-    if (someNoJoint) findings.repair({"A vertex names no joint", "it follows its other joints"}, source.pointer);
-  }
-  deformable.mesh = std::move(mesh);
-  return deformable;
-}
-
-namespace {
-
 bool isOfFloatMatrices(const gltf::Accessor& accessor) {
   return accessor.type == ElementType::mat4 && accessor.componentType == ComponentType::float32;
 }
@@ -128,6 +101,28 @@ bool readBindMatrices(const LoadContext& load, std::size_t accessor, const std::
 }
 
 } // namespace
+
+Deformable buildDeformable(const PrimitiveSource& source, TriangleMesh mesh, Findings& findings) {
+  Deformable deformable;
+  for (std::size_t i = 0; i < source.targets.size(); ++i) {
+    deformable.targets.push_back(
+        readTarget(source.targets[i], mesh, pointerTo(source.pointer + "/targets", i), findings));
+  }
+  if (source.joints[0]) {
+    deformable.influences.reserve(mesh.sources.size());
+    bool someNoJoint = false;
+    for (const std::uint32_t vertex : mesh.sources) {
+      deformable.influences.push_back(readInfluences(source, vertex, someNoJoint));
+      const Influences& added = deformable.influences.back();
+      for (std::size_t i = 0; i < added.joints.size(); ++i) {
+        if (added.weights[i] > 0) deformable.greatestJoint = std::max<int>(deformable.greatestJoint, added.joints[i]);
+      }
+    }
+    if (someNoJoint) findings.repair({"A vertex names no joint", "it follows its other joints"}, source.pointer);
+  }
+  deformable.mesh = std::move(mesh);
+  return deformable;
+}
 
 std::vector<Skin> readSkins(const LoadContext& load) {
   Findings& findings = load.findings;

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "renderer/scene/geometry/triangle_mesh.h"
+#include "renderer/scene/geometry/mesh_source.h"
 
 namespace gnomon {
 
@@ -62,8 +62,7 @@ struct Deformation {
 /// Reads the morph targets and joints of a primitive whose vertices have been built.
 Deformable buildDeformable(const PrimitiveSource& source, TriangleMesh mesh, Findings& findings);
 
-/// The skins of the file, in its order; one whose inverse bind matrices can't be read has no joints. Without inverse
-/// bind matrices a skin has those of identity.
+/// The skins of the file, in its order; without joints where the inverse bind matrices can't be read.
 std::vector<Skin> readSkins(const LoadContext& load);
 
 } // namespace gnomon

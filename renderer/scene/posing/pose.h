@@ -5,6 +5,9 @@
 #include <vector>
 
 #include "renderer/core/aabb.h"
+#include "renderer/scene/document/gltf_document.h"
+#include "renderer/scene/geometry/mesh_build.h"
+#include "renderer/scene/graph/node_tree.h"
 #include "renderer/scene/posing/deformation.h"
 #include "renderer/scene/scene.h"
 
@@ -18,21 +21,31 @@ struct PosedShape {
   Aabb bounds;                     ///< of the positions; not finite if one of them is not
 };
 
-/// The joints of a skin in one pose. Vertices follow their joints, whatever the node that holds the mesh does
-/// (glTF 2.0, 3.7.3.3); they are kept relative to the first joint, so that a place far from the origin costs no digits.
+/// The joints of a skin in one pose (glTF 2.0, 3.7.3.3), relative to the first joint for precision far from the origin.
 struct SkinPose {
   glm::dmat4 worldFromLocal{1};          ///< a translation; mirrored where the first joint mirrors
   std::vector<glm::dmat4> localFromMesh; ///< one a joint
 };
 SkinPose poseSkin(const Skin& skin, std::span<const glm::dmat4> worldFromNode);
 
-/// Morph targets by their weights, then joints (glTF 2.0, 3.7.2.2 and 3.7.3.3). `weights`: one a target, missing ones
-/// 0. `localFromMesh`: one a joint; empty = the deformable keeps to its node.
+/// Morph targets by `weights` (missing ones 0), then joints (glTF 2.0, 3.7.2.2 and 3.7.3.3). `localFromMesh`: one a
+/// joint; empty = no skin.
 PosedShape pose(const Deformable& deformable, std::span<const double> weights,
                 std::span<const glm::dmat4> localFromMesh);
 
-/// Gives a primitive the vertices of a pose, and what follows from them: bounds, clusters, welded indices, `solid`. Its
-/// triangles keep their order.
+/// Gives a primitive the vertices of a pose, with its bounds, clusters, welded indices and `solid`.
 void applyPose(const PosedShape& shape, int primitive, Scene& scene);
+
+/// The posed primitives of a node's mesh.
+struct PosedMesh {
+  std::vector<int> followingNode; ///< into Scene::primitives; in the space of the node
+  std::vector<int> followingSkin; ///< placed by worldFromSkin
+  glm::dmat4 worldFromSkin{1};
+};
+
+/// Makes primitives of the deformables of each node's mesh in the rest pose; nodes whose copies can never differ share
+/// one. One a node; empty where its mesh has no deformables.
+std::vector<PosedMesh> poseNodes(const LoadContext& load, const NodeTree& tree, const std::vector<BuiltMesh>& meshes,
+                                 Deformation& deformation, Scene& scene);
 
 } // namespace gnomon

@@ -1,9 +1,8 @@
-#include "renderer/charts/evaluation_chart.h"
-
 #include <gtest/gtest.h>
 #include <regex>
 
 #include "renderer/charts/chart_parts.h"
+#include "renderer/charts/charts.h"
 
 namespace gnomon {
 namespace {

@@ -1,6 +1,6 @@
-#include "renderer/charts/evaluation_csv.h"
-
 #include <gtest/gtest.h>
+
+#include "renderer/charts/charts.h"
 
 namespace gnomon {
 namespace {

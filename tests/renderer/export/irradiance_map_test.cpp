@@ -1,5 +1,3 @@
-#include "renderer/export/irradiance_map.h"
-
 #include <cmath>
 #include <gtest/gtest.h>
 

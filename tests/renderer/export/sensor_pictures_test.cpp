@@ -1,10 +1,9 @@
-#include "renderer/export/sensor_pictures.h"
-
 #include <gtest/gtest.h>
 #include <limits>
 
+#include "renderer/export/export_files.h"
 #include "renderer/image/image_codec.h"
-#include "renderer/image/png_encode.h"
+#include "renderer/image/picture_encode.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {

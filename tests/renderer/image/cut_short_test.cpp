@@ -5,9 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/image/image_codec.h"
-#include "renderer/image/jpeg_encode.h"
-#include "renderer/image/png_encode.h"
-#include "renderer/image/webp_encode.h"
+#include "renderer/image/picture_encode.h"
 #include "tests/renderer/image/png_builder.h"
 #include "tests/renderer/image/rows_of.h"
 

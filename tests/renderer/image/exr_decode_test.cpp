@@ -1,5 +1,5 @@
-#include "renderer/image/exr_decode.h"
-
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "renderer/image/image_codec.h"
-#include "renderer/image/png_encode.h"
+#include "renderer/image/picture_encode.h"
 #include "tests/renderer/image/oiio.h"
 
 namespace gnomon {

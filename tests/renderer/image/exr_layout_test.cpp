@@ -1,6 +1,6 @@
-#include "renderer/image/exr_layout.h"
-
 #include <gtest/gtest.h>
+
+#include "renderer/image/picture_encode.h"
 
 namespace gnomon {
 namespace {

@@ -1,7 +1,7 @@
-#include "renderer/image/i420_encode.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+
+#include "renderer/image/picture_encode.h"
 
 namespace gnomon {
 namespace {

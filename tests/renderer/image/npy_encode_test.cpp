@@ -1,5 +1,3 @@
-#include "renderer/image/npy_encode.h"
-
 #include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
@@ -9,7 +7,7 @@
 #include <tbb/global_control.h>
 #include <zlib.h>
 
-#include "renderer/image/zip_encode.h"
+#include "renderer/image/picture_encode.h"
 
 namespace gnomon {
 namespace {

@@ -1,13 +1,13 @@
 // What the encoders of pictures wrote, read back with OpenImageIO.
+#include "renderer/image/picture_encode.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
 #include <cmath>
 #include <cstdlib>
 #include <gtest/gtest.h>
 
 #include "renderer/image/image_codec.h"
-#include "renderer/image/jpeg_encode.h"
-#include "renderer/image/png_encode.h"
-#include "renderer/image/tiff_encode.h"
-#include "renderer/image/webp_encode.h"
 #include "tests/renderer/image/oiio.h"
 
 namespace gnomon {

@@ -1,5 +1,3 @@
-#include "renderer/image/png_encode.h"
-
 #include <gtest/gtest.h>
 #include <random>
 #include <rapidcheck.h>
@@ -8,6 +6,7 @@
 
 #include "renderer/image/image_codec.h"
 #include "renderer/image/image_container.h"
+#include "renderer/image/picture_encode.h"
 
 namespace gnomon {
 namespace {

@@ -1,6 +1,4 @@
-#include "renderer/scene/known_content.h"
-
-#include "renderer/scene/same_surfaces.h"
+#include "renderer/scene/shared_content.h"
 #include "tests/renderer/scene/load.h"
 #include "tests/support/webp_builder.h"
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "renderer/scene/texture_alpha.h"
+#include "renderer/scene/texture_reads.h"
 
 namespace gnomon {
 namespace {

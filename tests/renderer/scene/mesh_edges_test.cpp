@@ -1,5 +1,3 @@
-#include "renderer/scene/mesh_edges.h"
-
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/image/png_encode.h"
-#include "renderer/scene/texture_images.h"
+#include "renderer/image/picture_encode.h"
+#include "renderer/scene/texture_reads.h"
 #include "tests/renderer/scene/load.h"
 
 namespace gnomon {

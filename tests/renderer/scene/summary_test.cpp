@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/scene/findings.h"
-#include "renderer/scene/node_list.h"
+#include "renderer/scene/found_nodes.h"
 #include "tests/renderer/scene/load.h"
 
 namespace gnomon {

@@ -4,7 +4,7 @@
 #include <vpx/vp8dx.h>
 #include <vpx/vpx_decoder.h>
 
-#include "renderer/image/i420_encode.h"
+#include "renderer/image/picture_encode.h"
 
 namespace gnomon {
 

@@ -1,7 +1,6 @@
-#include "renderer/video/vp9_encoder.h"
-
 #include <gtest/gtest.h>
 
+#include "renderer/video/video_file.h"
 #include "tests/renderer/video/decoded_video.h"
 
 namespace gnomon {

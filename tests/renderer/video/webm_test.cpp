@@ -1,7 +1,6 @@
-#include "renderer/video/webm.h"
-
 #include <gtest/gtest.h>
 
+#include "renderer/video/video_file.h"
 #include "tests/renderer/video/parsed_webm.h"
 
 namespace gnomon {

@@ -1,8 +1,7 @@
-#include "renderer/volume/grid_file.h"
-
 #include <gtest/gtest.h>
 
 #include "protocol/base/bytes.h"
+#include "renderer/volume/density_grid.h"
 #include "tests/renderer/volume/vdb_builder.h"
 
 namespace gnomon {

@@ -1,11 +1,10 @@
-#include "renderer/volume/march.h"
-
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 #include <rapidcheck.h>
 
-#include "renderer/volume/view_ray.h"
+#include "renderer/volume/volume_picture.h"
+#include "renderer/volume/volume_space.h"
 #include "tests/renderer/volume/media.h"
 
 namespace gnomon {

@@ -1,5 +1,3 @@
-#include "renderer/volume/npy.h"
-
 #include <bit>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,6 +5,7 @@
 #include <string>
 
 #include "protocol/base/bytes.h"
+#include "renderer/volume/density_grid.h"
 
 namespace gnomon {
 namespace {

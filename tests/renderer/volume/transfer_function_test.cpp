@@ -1,9 +1,8 @@
-#include "renderer/volume/transfer_function.h"
-
 #include <gtest/gtest.h>
 #include <limits>
 #include <rapidcheck.h>
 
+#include "renderer/volume/medium.h"
 #include "tests/renderer/volume/media.h"
 
 namespace gnomon {

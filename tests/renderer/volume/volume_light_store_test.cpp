@@ -1,7 +1,6 @@
-#include "renderer/volume/volume_light_store.h"
-
 #include <gtest/gtest.h>
 
+#include "renderer/volume/volume_light.h"
 #include "tests/renderer/volume/media.h"
 
 namespace gnomon {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "renderer/volume/march.h"
+#include "renderer/volume/volume_picture.h"
 #include "tests/renderer/volume/media.h"
 
 namespace gnomon {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "renderer/volume/view_ray.h"
+#include "renderer/volume/volume_space.h"
 #include "tests/renderer/volume/media.h"
 
 namespace gnomon {

@@ -5,7 +5,6 @@
 #include <limits>
 #include <rapidcheck.h>
 
-#include "renderer/volume/view_ray.h"
 #include "tests/renderer/volume/media.h"
 
 namespace gnomon {

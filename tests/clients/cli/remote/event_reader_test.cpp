@@ -3,7 +3,7 @@
 
 #include "clients/cli/remote/http_client.h"
 #include "clients/cli/remote/webm_watch.h"
-#include "renderer/video/webm.h"
+#include "renderer/video/video_file.h"
 
 namespace gnomon::cli {
 namespace {

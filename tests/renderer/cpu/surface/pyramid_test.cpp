@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "renderer/cpu/surface/halved_rows.h"
-#include "renderer/scene/alpha_plane.h"
+#include "renderer/scene/scene_image.h"
 #include "tests/renderer/cpu/surface/sampled_truth.h"
 
 namespace gnomon::cpu {

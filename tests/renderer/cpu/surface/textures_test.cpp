@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-#include "renderer/image/png_encode.h"
+#include "renderer/image/picture_encode.h"
 #include "tests/renderer/cpu/instruction_sets.h"
 #include "tests/renderer/cpu/surface/sampled_truth.h"
 #include "tests/renderer/cpu/surface/sampling_kernels.h"

@@ -1,5 +1,3 @@
-#include "renderer/scene/animation/animations.h"
-
 #include <limits>
 
 #include "renderer/scene/animation/motion.h"

@@ -1,5 +1,3 @@
-#include "renderer/scene/animation/node_places.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

@@ -1,8 +1,6 @@
-#include "renderer/scene/animation/pose_scene.h"
-
 #include <numbers>
 
-#include "renderer/image/png_encode.h"
+#include "renderer/image/picture_encode.h"
 #include "renderer/scene/animation/posed_scene.h"
 #include "tests/renderer/scene/animation/animated.h"
 #include "tests/renderer/scene/load.h"

@@ -1,13 +1,10 @@
-#include "renderer/scene/animation/samplers.h"
-
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "renderer/scene/animation/property_target.h"
-#include "renderer/scene/document/gltf_json.h"
+#include "renderer/scene/animation/motion.h"
 #include "renderer/scene/document/read_model.h"
 #include "tests/renderer/scene/geometry.h"
 

@@ -1,5 +1,4 @@
-#include "renderer/scene/checks/extension_gate.h"
-
+#include "renderer/scene/checks/gltf_schema.h"
 #include "tests/renderer/scene/load.h"
 
 namespace gnomon {

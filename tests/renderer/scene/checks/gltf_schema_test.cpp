@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "renderer/scene/checks/gltf_fields.h"
-#include "renderer/scene/document/gltf_json.h"
+#include "renderer/scene/document/read_model.h"
 #include "tests/renderer/scene/load.h"
 
 namespace gnomon {

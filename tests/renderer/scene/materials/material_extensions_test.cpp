@@ -1,6 +1,6 @@
 #include <numbers>
 
-#include "renderer/image/png_encode.h"
+#include "renderer/image/picture_encode.h"
 #include "renderer/scene/document/read_model.h"
 #include "renderer/scene/materials/materials.h"
 #include "tests/renderer/scene/load.h"

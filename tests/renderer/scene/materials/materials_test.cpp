@@ -1,6 +1,6 @@
 #include "renderer/scene/materials/materials.h"
 
-#include "renderer/image/png_encode.h"
+#include "renderer/image/picture_encode.h"
 #include "tests/renderer/scene/load.h"
 #include "tests/support/webp_builder.h"
 

@@ -1,6 +1,4 @@
-#include "renderer/scene/materials/uv_sets.h"
-
-#include "renderer/image/png_encode.h"
+#include "renderer/image/picture_encode.h"
 #include "renderer/scene/materials/materials.h"
 #include "tests/renderer/scene/load.h"
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "protocol/evaluation/evaluation.h"
 
@@ -16,5 +17,12 @@ struct ChartTime {
 /// (logarithmic). Rows on the Pareto front are joined by steps; each point's number leads to its name beside the chart.
 /// Rows without figures follow the others, with the reason.
 std::string evaluationChart(const EvaluationReport& report, const ChartTime& time = {});
+
+/// A report's rows as CSV (RFC 4180) with a line of names: name, problem, milliseconds, a column for each stage that
+/// any row has ("shade ms"), memoryBytes, every metric ("edgeDisplacement.p95"), pareto. What a row lacks is empty.
+std::string evaluationCsv(const EvaluationReport& report);
+
+/// A value as a field: in quotes where it holds a comma, a quote or a line break.
+std::string csvField(std::string_view text);
 
 } // namespace gnomon

@@ -1,13 +1,26 @@
 #pragma once
 
+#include <optional>
+
+#include "protocol/bake/bake_file_type.h"
+#include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
 #include "protocol/report/sensor_range.h"
 #include "renderer/core/stop.h"
 #include "renderer/frame/frame.h"
 
-/// Frames as the files that simulated sensors deliver. `goOn`: false ends the encoding with a problem of code
-/// unavailable.
+/// Part of the door: see render.h.
 namespace gnomon {
+
+struct BakedScene;
+
+inline constexpr std::size_t kMostExportedBytes = 256u << 20; ///< of a GLB
+
+/// A bake as a file. `light`: index of a baked light; absent = the first for PNG, all for the others. Problems: at
+/// /light; lights of one file with charts of different sizes; broken pictures; tooLarge above kMostExportedBytes.
+Result<Bytes> bakeFile(const BakedScene& baked, BakeFile kind, std::optional<int> light);
+
+// Frames of simulated sensors. `goOn`: false ends the encoding with a problem of code unavailable.
 
 /// Metres along the view axis as a TIFF of 32-bit floats: 0 below `range`, infinity above it and where nothing is.
 /// REQUIRES: a frame whose first view is depth, in floats.

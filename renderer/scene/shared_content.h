@@ -9,6 +9,8 @@
 
 namespace gnomon {
 
+struct AccessorView;
+struct PrimitiveSource;
 struct Scene;
 class SceneImage;
 
@@ -18,8 +20,8 @@ struct ReuseCounts {
   std::uint64_t images = 0;
 };
 
-/// Meshes and images of the scenes that are in memory, by the SHA-256 of what they were made from, so that a file that
-/// holds some of them again is loaded without making them anew. It keeps nothing alive. Any thread.
+/// Meshes and images of the scenes in memory by the SHA-256 of their sources, for files that hold them again; weak
+/// references. Any thread.
 class KnownContent {
  public:
   struct Mesh {
@@ -45,6 +47,27 @@ class KnownContent {
   std::map<std::string, Kept> meshes_;
   std::map<std::string, std::weak_ptr<const SceneImage>> images_;
   ReuseCounts reused_;
+};
+
+// Whether data made of one scene serve another; decided by Primitive::content and shared images.
+
+/// Their vertices, attributes and indices are the same.
+bool sameMeshes(const Scene& a, const Scene& b);
+
+/// Each material reads the same images by the same samplers, wherever on them.
+bool sameTextures(const Scene& a, const Scene& b);
+
+/// Only cameras, lights, names, animations and volumes may differ: every surface is the same in the same place.
+bool sameSurfaces(const Scene& a, const Scene& b);
+
+/// The contents of a file's primitives. An accessor is read once, however many of them use it.
+class MeshContents {
+ public:
+  /// SHA-256 of all that buildVertices() reads; empty where the vertices depend on a pose. The views outlive this.
+  std::string of(const PrimitiveSource& source);
+
+ private:
+  std::map<const AccessorView*, std::string> accessors_; ///< SHA-256 of those that were read
 };
 
 } // namespace gnomon

@@ -1,14 +1,18 @@
-#include "renderer/export/bake_file.h"
+#include "renderer/export/export_files.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include "renderer/export/baked_glb.h"
 #include "renderer/frame/baked_scene.h"
-#include "renderer/image/image_codec.h"
-#include "renderer/image/png_encode.h"
+#include "renderer/image/picture_encode.h"
+#include "renderer/scene/scene.h"
 
 namespace gnomon {
+
 namespace {
 
 Result<std::vector<int>> chosenLights(const BakedScene& baked, std::optional<int> light) {
@@ -52,11 +56,45 @@ Result<Bytes> glbOf(const BakedScene& baked, const std::vector<int>& lights) {
     if (shadowed.back().baked.layout->corners == shadowed.front().baked.layout->corners) continue;
     return Problem{ProblemCode::invalidValue, "/lights/" + std::to_string(light) + "/shadow/lightMap",
                    "A GLB has one map for all lights, but this light was baked more finely or less than another.",
-                   "the same size or texelsPerMetre for all lights, or one light", ""};
+                   "the same size or texelsPerMetre for all lights, or one light"};
   }
   const SceneView& view = baked.scene->scenes[static_cast<std::size_t>(baked.frame.scene)];
   const IrradianceMap map = irradianceMap(*baked.scene, view, baked.frame.nodes, shadowed);
   return bakedGlb(*baked.scene, view, baked.frame.nodes, *shadowed.front().baked.layout, map, kMostExportedBytes);
+}
+
+const std::vector<float>& numbersOf(const Frame& frame) {
+  return std::get<std::vector<float>>(frame.images.front().image.pixels);
+}
+
+Image imageLike(const Frame& frame, std::vector<std::string> channels) {
+  const Image& shown = frame.images.front().image;
+  return {shown.width, shown.height, std::move(channels), {}};
+}
+
+float sensed(float depth, const SensorRange& range) {
+  if (!(depth <= range.max)) return std::numeric_limits<float>::infinity();
+  return depth < range.min ? 0.0f : depth;
+}
+
+std::uint16_t millimetres(float depth) {
+  constexpr float kTooFar = 65535;
+  return static_cast<std::uint16_t>(std::min(std::round(depth * 1000.0f), kTooFar));
+}
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+std::vector<Rgb> labelColors(const Scene& scene) {
+  std::vector<Rgb> colors;
+  for (const Material& material : scene.materials) {
+    Rgb color{};
+    for (int i = 0; i < 3; ++i) {
+      color[static_cast<std::size_t>(i)] =
+          static_cast<std::uint8_t>(std::lround(std::clamp(material.baseColorFactor[i], 0.0f, 1.0f) * 255.0f));
+    }
+    colors.push_back(color);
+  }
+  return colors;
 }
 
 } // namespace
@@ -73,7 +111,43 @@ Result<Bytes> bakeFile(const BakedScene& baked, BakeFile kind, std::optional<int
     case BakeFile::glb:
       return glbOf(baked, *lights);
   }
-  return Problem{ProblemCode::internal, "", "There is no such file of a bake.", "", ""};
+  return Problem{ProblemCode::internal, "", "There is no such file of a bake."};
+}
+
+Result<Bytes> depthTiff(const Frame& frame, const SensorRange& range, const GoOn& goOn) {
+  return untilStopped(goOn, [&] {
+    Image image = imageLike(frame, {"Z"});
+    std::vector<float> depths = numbersOf(frame);
+    for (float& depth : depths) depth = sensed(depth, range);
+    image.pixels = std::move(depths);
+    return encodeTiff(image);
+  });
+}
+
+Result<Bytes> depthPng(const Frame& frame, const SensorRange& range, const GoOn& goOn) {
+  return untilStopped(goOn, [&] {
+    Image image = imageLike(frame, {"Y"});
+    std::vector<std::uint16_t> depths;
+    depths.reserve(numbersOf(frame).size());
+    for (const float depth : numbersOf(frame)) depths.push_back(millimetres(sensed(depth, range)));
+    image.pixels = std::move(depths);
+    return encodePng(image, frame.report.spec.output.pngCompression);
+  });
+}
+
+Result<Bytes> labelPng(const Scene& scene, const Frame& frame, const GoOn& goOn) {
+  return untilStopped(goOn, [&] {
+    const std::vector<Rgb> colors = labelColors(scene);
+    Image image = imageLike(frame, {"R", "G", "B"});
+    std::vector<std::uint8_t> pixels;
+    pixels.reserve(3 * numbersOf(frame).size());
+    for (const float material : numbersOf(frame)) {
+      const Rgb color = material < 0 ? Rgb{255, 255, 255} : colors[static_cast<std::size_t>(material)];
+      pixels.insert(pixels.end(), color.begin(), color.end());
+    }
+    image.pixels = std::move(pixels);
+    return encodePng(image, frame.report.spec.output.pngCompression);
+  });
 }
 
 } // namespace gnomon
