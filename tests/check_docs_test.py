@@ -21,7 +21,7 @@ SOUND = {
                               "const kDebugViews = [\n  ['depth', 'Depth'],\n];\n"
                               "const kStageColors = {\n  plan: '#1',\n  encode: '#2',\n};\n",
     "protocol/FIELDS.md": "| field | type |\n|---|---|\n| `width` | number |\n| `lights[].color` | 3 numbers |\n",
-    "server/metrics/labels.h": 'kStages{"plan", "encode"};\n',
+    "server/metrics/request_metrics.h": 'kStages{"plan", "encode"};\n',
     "protocol/report/frame_report.h": "/// One stage's time. Names and order: plan\n/// encode. More.\n",
     "protocol/report/report_rows.h": 'field("stages", &FrameReport::stages, {.says = "plan, "\n "encode."}),\n',
     "protocol/spec/enum_rows.h": 'kSpellings<View>{\n  spelling(View::color, "color", "x"),\n'
@@ -51,7 +51,7 @@ BROKEN = [
     ("server/API.md", "| `plan` | planning |\n", "", "server/API.md: stage plan is missing"),
     ("clients/web/fields.mjs", "  ['depth', 'Depth'],\n", "", "clients/web/fields.mjs: view depth is missing"),
     ("clients/web/fields.mjs", "  plan: '#1',\n", "", "clients/web/fields.mjs: stage plan is missing"),
-    ("server/metrics/labels.h", '"plan", ', "", "server/metrics/labels.h: stage plan is missing"),
+    ("server/metrics/request_metrics.h", '"plan", ', "", "server/metrics/labels.h: stage plan is missing"),
     ("protocol/report/frame_report.h", "plan", "plan load", "there is no stage load"),
     ("protocol/report/report_rows.h", "plan, ", "", "protocol/report/report_rows.h: stage plan is missing"),
     ("renderer/SHADOWS.md", "| `maps` | a map |\n", "", "renderer/SHADOWS.md: technique maps is missing"),

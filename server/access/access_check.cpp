@@ -7,7 +7,6 @@
 
 #include "protocol/access/signed_target.h"
 #include "protocol/base/text.h"
-#include "server/access/key_usage.h"
 
 namespace gnomon {
 namespace {
@@ -18,17 +17,14 @@ constexpr std::string_view kScheme = "bearer ";
 HttpReply unauthorized(std::string detail, std::string_view challengeMore, const HttpRequest& request) {
   HttpReply reply = problemReply(
       {{ProblemCode::unauthorized, "Authorization", std::move(detail), "Bearer and the secret of a key", ""}},
-      request.id);
+      request.id, {.refusal = RefusalReason::keys});
   reply.headers.emplace_back("WWW-Authenticate", std::string(kChallenge).append(challengeMore));
-  reply.refusal = RefusalReason::keys;
   return reply;
 }
 
 HttpReply notSigned(std::string_view queryKey, std::string detail, const HttpRequest& request) {
-  HttpReply reply =
-      problemReply({{ProblemCode::forbidden, std::string(queryKey), std::move(detail), "", ""}}, request.id);
-  reply.refusal = RefusalReason::keys;
-  return reply;
+  return problemReply({{ProblemCode::forbidden, std::string(queryKey), std::move(detail), "", ""}}, request.id,
+                      {.refusal = RefusalReason::keys});
 }
 
 bool hasSignature(const HttpRequest& request) {
@@ -46,18 +42,16 @@ void dropSignature(HttpRequest& request) {
 HttpReply outOfScope(const AccessKey& key, Scope needed, const HttpRequest& request) {
   HttpReply reply = problemReply({{ProblemCode::forbidden, "Authorization", "This key does not allow this request.",
                                    scopeText(needed), scopeText(key.scope)}},
-                                 request.id);
+                                 request.id, {.refusal = RefusalReason::keys});
   reply.key = key.name;
-  reply.refusal = RefusalReason::keys;
   return reply;
 }
 
 HttpReply tooOften(const AccessKey& key, int seconds, const HttpRequest& request) {
   HttpReply reply = problemReply(
       {{ProblemCode::busy, "Authorization", "This key has as many requests as it may have for now.", "", ""}},
-      request.id, {.retryAfterSeconds = seconds});
+      request.id, {.retryAfterSeconds = seconds, .refusal = RefusalReason::rate});
   reply.key = key.name;
-  reply.refusal = RefusalReason::rate;
   return reply;
 }
 

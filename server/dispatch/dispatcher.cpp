@@ -1,17 +1,14 @@
 #include "server/dispatch/dispatcher.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <exception>
 #include <numeric>
 #include <system_error>
-#include <utility>
 
 #include "protocol/base/elapsed.h"
 #include "server/dispatch/dispatcher_parts.h"
+#include "server/system/file_descriptor.h"
 #include "server/system/log.h"
-#include "server/system/memory_file.h"
 #include "server/system/no_thread.h"
 
 namespace gnomon {

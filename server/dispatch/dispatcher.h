@@ -4,7 +4,6 @@
 #include <condition_variable>
 #include <functional>
 #include <list>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -74,8 +73,6 @@ class Dispatcher {
   /// Returns once all workers are ready, or one of them can't start: with those that can, or why none can.
   static Result<std::unique_ptr<Dispatcher>> start(DispatcherOptions options);
   ~Dispatcher(); ///< kills the workers; no task may be in progress
-  Dispatcher(const Dispatcher&) = delete;
-  Dispatcher& operator=(const Dispatcher&) = delete;
 
   /// Waits for the task's result. Problems beside the worker's own: busy where too many tasks wait,
   /// deadlineExceeded, unavailable where `gone` became true or the server ends, internal where workers ended over it or

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <deque>
-#include <set>
+#include <map>
 
 #include "server/dispatch/dispatcher.h"
 

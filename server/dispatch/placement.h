@@ -5,7 +5,6 @@
 #include <numeric>
 #include <optional>
 #include <span>
-#include <string>
 
 #include "server/dispatch/task.h"
 

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
-#include <numeric>
 #include <utility>
 
 #include "protocol/base/elapsed.h"

@@ -8,9 +8,9 @@
 #include <string>
 #include <string_view>
 
+#include "server/system/byte_budget.h"
 #include "server/system/clock.h"
 #include "server/system/file_descriptor.h"
-#include "server/system/reply_room.h"
 #include "server/wire/messages.h"
 
 namespace gnomon {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "server/dispatch/dispatcher_parts.h"
+#include "server/system/file_descriptor.h"
 #include "server/system/log.h"
-#include "server/system/memory_file.h"
 
 /// How a dispatcher starts its workers, reads their messages, watches and replaces them.
 namespace gnomon {

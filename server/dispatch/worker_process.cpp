@@ -13,7 +13,7 @@
 #include <unistd.h>
 #include <vector>
 
-#include "server/system/heaps.h"
+#include "server/system/memory_limit.h"
 
 namespace gnomon {
 namespace {

@@ -19,8 +19,6 @@ class WorkerProcess {
   static Result<std::shared_ptr<WorkerProcess>> start(const std::string& program);
 
   ~WorkerProcess(); ///< kills it
-  WorkerProcess(const WorkerProcess&) = delete;
-  WorkerProcess& operator=(const WorkerProcess&) = delete;
 
   Channel& channel() { return channel_; }
   pid_t pid() const { return pid_; }

@@ -5,13 +5,13 @@
 #include <charconv>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "protocol/base/bytes.h"
 #include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/spec/limits.h"
+#include "server/system/numbers.h"
 
 namespace gnomon {
 namespace {
@@ -99,14 +99,11 @@ std::string boundsOf(const NumberRow& row) {
 void readNumber(const Fields& fields, const NumberRow& row, Numbers& numbers, Problems& problems) {
   const auto sent = text(fields, row.name, problems);
   if (!sent) return;
-  double number = 0;
-  const char* const last = sent->data() + sent->size();
-  const auto [end, error] = std::from_chars(sent->data(), last, number);
-  const bool isNumber = error == std::errc() && end == last;
-  const bool isGood = isNumber && number <= row.max && (row.mayBeMin ? number >= row.min : number > row.min) &&
-                      (!row.whole || number == std::floor(number));
+  const auto number = numberIn<double>(*sent);
+  const bool isGood = number && *number <= row.max && (row.mayBeMin ? *number >= row.min : *number > row.min) &&
+                      (!row.whole || *number == std::floor(*number));
   if (isGood) {
-    numbers.*row.value = number;
+    numbers.*row.value = *number;
   } else {
     problems.push_back(wrong(row.name, "The field is no such number.", boundsOf(row), asciiExcerpt(*sent)));
   }

@@ -1,8 +1,7 @@
 #include <array>
-#include <nlohmann/json.hpp>
 
 #include "protocol/spec/validate.h"
-#include "server/frames/frame_tag.h"
+#include "server/frames/reply_cache.h"
 #include "server/handlers/drake_form.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/work.h"
@@ -14,7 +13,7 @@ namespace gnomon {
 namespace {
 
 /// The same refusal for a client that shows its text to people: a line for each problem.
-HttpReply asText(HttpReply reply, const Problems& problems) {
+HttpReply inPlainText(HttpReply reply, const Problems& problems) {
   reply.contentType = "text/plain; charset=utf-8";
   std::string text;
   for (const Problem& problem : problems) {
@@ -28,7 +27,7 @@ HttpReply asText(HttpReply reply, const Problems& problems) {
 }
 
 HttpReply refused(const Problems& problems, const RouteCall& call) {
-  return asText(problemReply(problems, call.request.id), problems);
+  return inPlainText(problemReply(problems, call.request.id), problems);
 }
 
 /// Of depth: metres or, in a PNG, millimetres.
@@ -54,7 +53,7 @@ HttpReply draw(Services& services, const RouteCall& call, const PackedBundle& pa
   TaskResult result = runTask(services, std::move(task), call.clientGone);
   const Problems problems = result.outcome.problems;
   HttpReply reply = replyOf(std::move(result), call.request.id);
-  if (!problems.empty()) return asText(std::move(reply), problems);
+  if (!problems.empty()) return inPlainText(std::move(reply), problems);
   reply.headers.emplace_back("Cache-Control", "no-store");
   reply.headers.emplace_back("Vary", "Accept");
   reply.headers.emplace_back("Repr-Digest", reprDigest(reply.body));

@@ -4,12 +4,12 @@
 #include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/json/query_codec.h"
-#include "server/frames/frame_tag.h"
+#include "server/frames/reply_cache.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/work.h"
 #include "server/http/negotiation.h"
-#include "server/http/query.h"
 #include "server/http/reply.h"
+#include "server/http/url.h"
 #include "server/scenes/upload.h"
 
 namespace gnomon {
@@ -31,9 +31,7 @@ std::variant<Task, HttpReply> taskOf(Services& services, const RouteCall& call, 
   if (!bundle) return problemReply(bundle.problems(), call.request.id);
   auto made = frameTask(services, call, frame.sceneId, *std::move(bundle), frame.spec, frame.counts);
   if (made) return *std::move(made);
-  HttpReply refused = problemReply(made.problems(), call.request.id);
-  refused.refusal = RefusalReason::cost;
-  return refused;
+  return problemReply(made.problems(), call.request.id, {.refusal = RefusalReason::cost});
 }
 
 HttpReply draw(Services& services, const RouteCall& call, const FrameCall& frame, FrameForm form,

@@ -77,4 +77,19 @@ HttpReply postBake(Services& services, RouteCall call);   ///< POST /v1/scenes/{
 HttpReply getBake(Services& services, RouteCall call);    ///< GET /v1/scenes/{id}/bakes/{key}
 HttpReply deleteBake(Services& services, RouteCall call); ///< DELETE /v1/scenes/{id}/bakes/{key}
 
+/// The addresses of a server's state.
+enum class Addresses {
+  one, ///< beside everything else
+  two  ///< at an address of its own; probes are answered at both
+};
+
+/// Every route for clients. `services` outlives them.
+std::vector<Route> makeRoutes(Services& services, Addresses addresses = Addresses::one);
+
+/// The routes of the second address.
+std::vector<Route> makeAdminRoutes(Services& services);
+
+/// What connections call: finds the route, checks the type of the body, and refuses other requests.
+HttpService makeService(std::vector<Route> routes);
+
 } // namespace gnomon

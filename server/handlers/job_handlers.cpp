@@ -5,12 +5,11 @@
 #include "protocol/job/job_json.h"
 #include "server/handlers/event_reply.h"
 #include "server/handlers/handlers.h"
-#include "server/handlers/job_frames.h"
 #include "server/handlers/job_reply.h"
-#include "server/handlers/sequence_reply.h"
+#include "server/handlers/sequence_forms.h"
 #include "server/handlers/work.h"
 #include "server/http/negotiation.h"
-#include "server/jobs/job_problems.h"
+#include "server/jobs/job_queue.h"
 
 namespace gnomon {
 namespace {

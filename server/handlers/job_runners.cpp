@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <poll.h>
 
 #include "protocol/json/json_codec.h"
-#include "server/handlers/sequence_frame.h"
+#include "server/handlers/sequence_frames.h"
 #include "server/system/log.h"
 
 namespace gnomon {
@@ -55,11 +54,6 @@ JobRunners::~JobRunners() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-void JobRunners::pause(std::chrono::milliseconds time) const {
-  pollfd waiting{stop_.fd(), POLLIN, 0};
-  ::poll(&waiting, 1, static_cast<int>(time.count()));
-}
-
 void JobRunners::takeFrames() {
   constexpr std::chrono::milliseconds kPatience{500};
   auto pauseAfter = kShortest;
@@ -68,7 +62,7 @@ void JobRunners::takeFrames() {
       const auto turn = services_.jobs.take(kPatience);
       if (!turn) {
         logEvent("jobs", turn.problems().front().detail);
-        pause(pauseAfter);
+        stop_.waitFor(pauseAfter);
         pauseAfter = std::min(pauseAfter * 2, kLongest);
         continue;
       }
@@ -76,7 +70,7 @@ void JobRunners::takeFrames() {
       if (*turn) draw(**turn);
     } catch (const std::exception& error) {
       logEvent("jobs", error.what()); // out of memory: the frame is given to others once this one is not renewed
-      pause(kLongest);
+      stop_.waitFor(kLongest);
     }
   }
 }
@@ -146,7 +140,7 @@ void JobRunners::keep(const FrameTurn& turn, const JobFrame& frame) {
     if (kept) return count(FrameEnd::drawn);
     if (stop_.raised() || Clock::now() >= until) return count(FrameEnd::givenBack);
     logEvent("jobs", kept.problems().front().detail);
-    pause(wait);
+    stop_.waitFor(wait);
   }
 }
 
@@ -162,7 +156,7 @@ void JobRunners::giveBack(const FrameTurn& turn, bool isTried) {
   count(FrameEnd::givenBack);
   const auto stored = services_.jobs.giveBack(turn, isTried);
   if (!stored) logEvent("jobs", stored.problems().front().detail);
-  if (!stopping()) pause(kShortest);
+  if (!stopping()) stop_.waitFor(kShortest);
 }
 
 } // namespace gnomon

@@ -39,8 +39,6 @@ class JobRunners {
   /// `threads`: frames at once. `services` outlives them.
   JobRunners(Services& services, std::size_t threads);
   ~JobRunners(); ///< gives back what is in work
-  JobRunners(const JobRunners&) = delete;
-  JobRunners& operator=(const JobRunners&) = delete;
 
  private:
   void takeFrames();
@@ -50,7 +48,6 @@ class JobRunners {
   void giveBack(const FrameTurn& turn, bool isTried);
   void count(FrameEnd end) { services_.jobFrames.add(end); }
   bool stopping() const { return stop_.raised() || services_.draining; }
-  void pause(std::chrono::milliseconds time) const;
 
   Services& services_;
   JobSequences sequences_;

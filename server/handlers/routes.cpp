@@ -1,5 +1,3 @@
-#include "server/handlers/routes.h"
-
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>

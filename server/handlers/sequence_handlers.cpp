@@ -10,11 +10,11 @@
 #include "protocol/spec/traits.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/job_reply.h"
-#include "server/handlers/sequence_reply.h"
+#include "server/handlers/sequence_forms.h"
 #include "server/handlers/video_form.h"
 #include "server/handlers/work.h"
 #include "server/http/negotiation.h"
-#include "server/jobs/job_problems.h"
+#include "server/jobs/job_queue.h"
 
 namespace gnomon {
 namespace {
@@ -29,9 +29,7 @@ constexpr auto kFormsOrVideo = [] {
 }();
 
 HttpReply refusal(Problem problem, RefusalReason reason, const std::string& requestId) {
-  HttpReply reply = problemReply({std::move(problem)}, requestId, {.retryAfterSeconds = kSequenceRetrySeconds});
-  reply.refusal = reason;
-  return reply;
+  return problemReply({std::move(problem)}, requestId, {.retryAfterSeconds = kSequenceRetrySeconds, .refusal = reason});
 }
 
 /// A sequence that was asked for, and an estimate of its work.

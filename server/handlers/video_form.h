@@ -1,7 +1,5 @@
 #pragma once
 
-#include <memory>
-
 #include "protocol/base/result.h"
 #include "server/handlers/sequence_forms.h"
 #include "server/system/byte_budget.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -12,7 +11,8 @@
 #include "protocol/cost/frame_cost.h"
 #include "protocol/json/json_codec.h"
 #include "server/handlers/event_reply.h"
-#include "server/system/memory_file.h"
+#include "server/system/file_descriptor.h"
+#include "server/system/numbers.h"
 
 namespace gnomon {
 namespace {
@@ -33,10 +33,7 @@ std::optional<int> preferredWait(const HttpRequest& request) {
   constexpr std::string_view kWait = "wait=";
   for (const std::string& preference : preferences(request)) {
     if (!preference.starts_with(kWait)) continue;
-    int seconds = 0;
-    const char* const end = preference.data() + preference.size();
-    const auto [rest, error] = std::from_chars(preference.data() + kWait.size(), end, seconds);
-    if (error == std::errc() && rest == end && seconds > 0) return seconds;
+    if (const auto seconds = numberIn(std::string_view(preference).substr(kWait.size()), 1)) return seconds;
   }
   return std::nullopt;
 }

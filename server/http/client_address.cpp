@@ -2,29 +2,21 @@
 
 #include <algorithm>
 #include <arpa/inet.h>
-#include <charconv>
 #include <netinet/in.h>
-#include <utility>
 
 #include "protocol/base/text.h"
+#include "server/system/numbers.h"
 
 namespace gnomon {
 namespace {
 
 constexpr std::array<std::uint8_t, 12> kMapped{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff}; ///< IPv4 within IPv6
 
-std::optional<int> numberOf(std::string_view text, int most) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool isNumber = error == std::errc() && end == text.data() + text.size() && value >= 0 && value <= most;
-  return isNumber ? std::optional(value) : std::nullopt;
-}
-
 /// "192.0.2.7", "192.0.2.7:80", "2001:db8::1", "[2001:db8::1]" or "[2001:db8::1]:80".
 std::optional<IpAddress> hopAddress(std::string_view text) {
   constexpr int kMostPort = 65'535;
   const auto isPort = [](std::string_view rest) {
-    return rest.empty() || (rest.front() == ':' && numberOf(rest.substr(1), kMostPort));
+    return rest.empty() || (rest.front() == ':' && numberIn(rest.substr(1), 0, kMostPort));
   };
   if (text.starts_with('[')) {
     const std::size_t end = text.find(']');
@@ -102,7 +94,7 @@ std::optional<IpNetwork> ipNetwork(std::string_view text) {
   if (!first) return std::nullopt;
   const int most = first->isIpv6 ? 128 : 32;
   if (!first->isIpv6 && text.find(':') != std::string_view::npos) return std::nullopt; // its length is that of IPv6
-  const auto bits = slash == std::string_view::npos ? std::optional(most) : numberOf(text.substr(slash + 1), most);
+  const auto bits = slash == std::string_view::npos ? std::optional(most) : numberIn(text.substr(slash + 1), 0, most);
   if (!bits) return std::nullopt;
   for (int bit = *bits; bit < most; ++bit) {
     if ((first->bytes[static_cast<std::size_t>(bit / 8)] >> (7 - bit % 8)) & 1) return std::nullopt;

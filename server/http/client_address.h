@@ -1,17 +1,38 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "server/http/open_connection.h"
 #include "server/http/request.h"
+#include "server/system/clock.h"
+#include "server/system/file_descriptor.h"
 
 /// The client's address behind trusted proxies.
 namespace gnomon {
+
+/// The other end of a connection.
+struct PeerAddress {
+  std::string text;    ///< for the log: "192.0.2.7", "2001:db8::1"
+  std::string network; ///< what counts as one client: the address, or the first 64 bits of one of IPv6
+};
+
+/// A client between two of its requests.
+struct OpenConnection {
+  FileDescriptor socket;
+  PeerAddress peer;
+  std::string received{};      ///< of the next request: bytes that have come already
+  Clock::time_point arrived{}; ///< their first
+  std::size_t requests = 0;    ///< answered so far
+  bool ending = false;         ///< its last reply is sent: what still comes is passed over until the client closes
+
+  /// Nothing of a request has come, or nothing but an empty line, which may precede it (RFC 9112 section 2.2).
+  bool isSilent() const { return received.empty() || received == "\r" || received == "\r\n"; }
+};
 
 /// An address of IPv4, or of IPv6. One of IPv4 that is written as IPv6 (::ffff:192.0.2.1) is one of IPv4.
 struct IpAddress {

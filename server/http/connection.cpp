@@ -1,14 +1,11 @@
 #include "server/http/connection.h"
 
-#include <algorithm>
 #include <exception>
 #include <memory>
 #include <sys/socket.h>
 #include <utility>
 
-#include "server/http/client_watch.h"
 #include "server/http/socket_io.h"
-#include "server/http/trace_context.h"
 #include "server/system/log.h"
 
 namespace gnomon {
@@ -27,6 +24,20 @@ class Counted {
  private:
   std::atomic<std::size_t>& count_;
 };
+
+/// The request of a head, and what the record has of it; of one that is malformed, the record has an id alone.
+Result<HttpRequest> requestOf(const Result<RequestHead>& head, RequestRecord& record) {
+  auto request = head ? requestFromHead(*head) : Result<HttpRequest>(head.problems());
+  if (!request) {
+    record.id = requestId(head ? headerValue(head->headers, "x-request-id") : std::nullopt);
+    return request;
+  }
+  record.id = request->id;
+  record.trace = request->trace;
+  record.method = request->method;
+  record.target = head->target;
+  return request;
+}
 
 class Connection {
  public:
@@ -76,17 +87,12 @@ class Connection {
       record.client = clientAddress(connection_.peer, head->headers, context_.trustedProxies).text;
       record.proxy = record.client == connection_.peer.text ? "" : connection_.peer.text;
     }
-    auto request = head ? requestFromHead(*head) : Result<HttpRequest>(head.problems());
+    auto request = requestOf(head, record);
     if (!request) {
-      record.id = requestId(head ? headerValue(head->headers, "x-request-id") : std::nullopt);
       return send(problemReply(request.problems(), record.id, {.read = RequestPart::head}), record, false, false);
     }
     request->client = record.client;
     request->arrived = record.start;
-    record.id = request->id;
-    record.trace = request->trace;
-    record.method = request->method;
-    record.target = head->target;
     const bool bodyless = request->method == "HEAD";
 
     auto found = context_.service(*request);
@@ -100,9 +106,10 @@ class Connection {
     {
       ByteLease lease(context_.bodyBytes);
       if (auto problem = receiveBody(*head, handler.body, *request, lease)) {
-        HttpReply refused = problemReply({*problem}, record.id, {.read = RequestPart::body});
-        if (problem->code == ProblemCode::busy) refused.refusal = RefusalReason::memory; // which other bodies use
-        return send(std::move(refused), record, false, bodyless);
+        const bool isBusy = problem->code == ProblemCode::busy; // other bodies use the memory
+        const auto refusal = isBusy ? RefusalReason::memory : RefusalReason::none;
+        return send(problemReply({*problem}, record.id, {.read = RequestPart::body, .refusal = refusal}), record, false,
+                    bodyless);
       }
       record.requestBytes = request->body.size();
       watch_ = std::make_shared<ClientWatch>(connection_.socket.get(), head->isHttp11);
@@ -165,8 +172,7 @@ class Connection {
       return false;
     }
     if (!bodyless && !awaitRoom(reply)) {
-      reply = problemReply({noReplyRoom()}, record.id);
-      reply.refusal = RefusalReason::memory;
+      reply = problemReply({noReplyRoom()}, record.id, {.refusal = RefusalReason::memory});
     }
     return send(std::move(reply), record, keepAlive, bodyless);
   }
@@ -242,6 +248,30 @@ std::optional<OpenConnection> serveConnection(OpenConnection connection, Connect
     logEvent("connection", error.what()); // out of memory while a head was read: the client is cut off, we go on
     return std::nullopt;
   }
+}
+
+std::optional<UnservedReply> replyToUnserved(const HttpService& service, std::string_view head,
+                                             const std::optional<Problem>& refusal) {
+  UnservedReply unserved;
+  RequestRecord& record = unserved.record;
+  auto request = requestOf(parseRequestHead(head), record);
+  if (!request) {
+    unserved.reply = problemReply(request.problems(), record.id, {.read = RequestPart::head});
+    return unserved;
+  }
+  unserved.bodyless = request->method == "HEAD";
+  auto found = service(*request);
+  const auto* handler = std::get_if<RequestHandler>(&found);
+  record.route = handler != nullptr ? handler->route : std::get<HttpReply>(found).route;
+  if (handler != nullptr && handler->isProbe) {
+    unserved.reply = handler->answer(*std::move(request), [] { return false; });
+    return unserved;
+  }
+  if (!refusal) return std::nullopt;
+  const bool isBusy = refusal->code == ProblemCode::busy;
+  unserved.reply =
+      problemReply({*refusal}, record.id, {.refusal = isBusy ? RefusalReason::address : RefusalReason::threads});
+  return unserved;
 }
 
 } // namespace gnomon

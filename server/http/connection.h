@@ -3,11 +3,11 @@
 #include <atomic>
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <variant>
 
 #include "protocol/access/access_key.h"
 #include "server/http/client_address.h"
-#include "server/http/open_connection.h"
 #include "server/http/reply.h"
 #include "server/http/request_body.h"
 #include "server/http/request_log.h"
@@ -72,5 +72,17 @@ struct ConnectionContext {
 /// `mayStay`: whether the thread may wait a moment for the next request, since no other connection wants it.
 std::optional<OpenConnection> serveConnection(OpenConnection connection, ConnectionContext& context,
                                               const std::function<bool()>& mayStay) noexcept;
+
+/// The reply to a request that no thread serves, as it is sent and logged.
+struct UnservedReply {
+  HttpReply reply;
+  RequestRecord record; ///< without its client and its start
+  bool bodyless = false;
+};
+
+/// What can be said to a complete head without a thread: a probe is answered, a malformed head refused, and anything
+/// else refused with `refusal`. Nothing where there is none: the request may go on waiting.
+std::optional<UnservedReply> replyToUnserved(const HttpService& service, std::string_view head,
+                                             const std::optional<Problem>& refusal);
 
 } // namespace gnomon

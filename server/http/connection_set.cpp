@@ -4,7 +4,6 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
-#include <functional>
 #include <string_view>
 #include <sys/epoll.h>
 #include <system_error>
@@ -117,11 +116,7 @@ std::optional<int> ConnectionSet::firstOfBusiestClient(
 
 std::vector<ConnectionSet::Readable> ConnectionSet::wait(Clock::time_point until) {
   const auto next = std::min(until, nextDeadline_);
-  int wait = -1;
-  if (next != Clock::time_point::max()) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(next - Clock::now()).count();
-    wait = static_cast<int>(std::clamp<std::int64_t>(left, 0, 60'000));
-  }
+  const int wait = next == Clock::time_point::max() ? -1 : millisecondsUntil(next);
   std::array<epoll_event, 64> events;
   const int count = ::epoll_wait(poll_.get(), events.data(), events.size(), wait);
   std::vector<Readable> readable;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "server/http/open_connection.h"
+#include "server/http/client_address.h"
 #include "server/system/clock.h"
 #include "server/system/file_descriptor.h"
 

@@ -1,12 +1,11 @@
 #include "server/http/negotiation.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <string>
 #include <vector>
 
 #include "protocol/base/text.h"
+#include "server/system/numbers.h"
 
 namespace gnomon {
 namespace {
@@ -18,10 +17,8 @@ struct MediaRange {
 
 /// Thousandths from "0", "0.5", "1.000"; anything else counts as 0, so that it is never chosen by mistake.
 int qualityOf(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool good = error == std::errc() && end == text.data() + text.size() && value >= 0 && value <= 1;
-  return good ? static_cast<int>(value * 1000 + 0.5) : 0;
+  const auto value = numberIn(text, 0.0, 1.0);
+  return value ? static_cast<int>(*value * 1000 + 0.5) : 0;
 }
 
 std::vector<MediaRange> rangesOf(std::string_view accept) {

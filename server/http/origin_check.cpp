@@ -51,9 +51,8 @@ class OriginCheck {
     auto* handler = std::get_if<RequestHandler>(&found);
     if (handler != nullptr && handler->isProbe) return found;
     const auto refuse = [&](Problem problem) {
-      HttpReply reply = problemReply({std::move(problem)}, request.id);
+      HttpReply reply = problemReply({std::move(problem)}, request.id, {.refusal = RefusalReason::origin});
       reply.route = handler != nullptr ? handler->route : std::get<HttpReply>(found).route;
-      reply.refusal = RefusalReason::origin;
       return reply;
     };
     const std::string host = lowerCase(headerValue(request.headers, "host").value_or(""));

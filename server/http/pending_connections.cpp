@@ -13,8 +13,6 @@
 
 #include "server/http/reply.h"
 #include "server/http/socket_io.h"
-#include "server/http/trace_context.h"
-#include "server/http/unserved_head.h"
 #include "server/system/log.h"
 
 namespace gnomon {

@@ -23,8 +23,6 @@ class PendingConnections {
   /// refuses a thread.
   PendingConnections(ConnectionContext& context, std::size_t threads, std::size_t perClient);
   ~PendingConnections() { finish(); }
-  PendingConnections(const PendingConnections&) = delete;
-  PendingConnections& operator=(const PendingConnections&) = delete;
 
   /// Takes the connection over. Where too many wait, the client that has the most of them loses its oldest that has
   /// not asked for anything yet; if all have, its newest is refused.

@@ -1,12 +1,10 @@
 #include "server/http/reply.h"
 
 #include <algorithm>
-#include <array>
 #include <ctime>
 #include <nlohmann/json.hpp>
-#include <utility>
 
-#include "protocol/json/json_codec.h"
+#include "protocol/json/problem_rows.h"
 
 namespace gnomon {
 
@@ -33,56 +31,70 @@ bool brings(const HttpReply& reply, std::string_view name) {
                      [&](const auto& header) { return header.first == name; });
 }
 
+struct StatusPhrase {
+  int status;
+  std::string_view phrase;
+};
+constexpr std::array kPhrases{
+    StatusPhrase{200, "OK"},
+    StatusPhrase{201, "Created"},
+    StatusPhrase{204, "No Content"},
+    StatusPhrase{304, "Not Modified"},
+    StatusPhrase{400, "Bad Request"},
+    StatusPhrase{401, "Unauthorized"},
+    StatusPhrase{403, "Forbidden"},
+    StatusPhrase{404, "Not Found"},
+    StatusPhrase{405, "Method Not Allowed"},
+    StatusPhrase{406, "Not Acceptable"},
+    StatusPhrase{408, "Request Timeout"},
+    StatusPhrase{411, "Length Required"},
+    StatusPhrase{413, "Content Too Large"},
+    StatusPhrase{415, "Unsupported Media Type"},
+    StatusPhrase{421, "Misdirected Request"},
+    StatusPhrase{422, "Unprocessable Content"},
+    StatusPhrase{429, "Too Many Requests"},
+    StatusPhrase{431, "Request Header Fields Too Large"},
+    StatusPhrase{500, "Internal Server Error"},
+    StatusPhrase{503, "Service Unavailable"},
+    StatusPhrase{504, "Gateway Timeout"},
+    StatusPhrase{507, "Insufficient Storage"},
+};
+
 std::string_view reasonPhrase(int status) {
-  switch (status) {
-    case 200:
-      return "OK";
-    case 201:
-      return "Created";
-    case 204:
-      return "No Content";
-    case 304:
-      return "Not Modified";
-    case 400:
-      return "Bad Request";
-    case 401:
-      return "Unauthorized";
-    case 403:
-      return "Forbidden";
-    case 404:
-      return "Not Found";
-    case 405:
-      return "Method Not Allowed";
-    case 406:
-      return "Not Acceptable";
-    case 408:
-      return "Request Timeout";
-    case 411:
-      return "Length Required";
-    case 413:
-      return "Content Too Large";
-    case 415:
-      return "Unsupported Media Type";
-    case 421:
-      return "Misdirected Request";
-    case 422:
-      return "Unprocessable Content";
-    case 429:
-      return "Too Many Requests";
-    case 431:
-      return "Request Header Fields Too Large";
-    case 500:
-      return "Internal Server Error";
-    case 503:
-      return "Service Unavailable";
-    case 504:
-      return "Gateway Timeout";
-    case 507:
-      return "Insufficient Storage";
-    default:
-      return "Status";
-  }
+  const auto found = std::ranges::find(kPhrases, status, &StatusPhrase::status);
+  return found == kPhrases.end() ? "Status" : found->phrase;
 }
+
+/// The status of each kind of problem, by the part of the request that was read.
+struct ProblemStatus {
+  ProblemCode code;
+  int whole;
+  int head = whole;
+  int body = whole;
+};
+constexpr std::array kProblemStatuses{
+    ProblemStatus{ProblemCode::malformed, 400},
+    ProblemStatus{ProblemCode::invalidValue, 400},
+    ProblemStatus{ProblemCode::notFound, 404},
+    ProblemStatus{ProblemCode::methodNotAllowed, 405},
+    ProblemStatus{ProblemCode::unauthorized, 401},
+    ProblemStatus{ProblemCode::forbidden, 403},
+    ProblemStatus{ProblemCode::misdirected, 421},
+    ProblemStatus{ProblemCode::notAcceptable, 406},
+    ProblemStatus{ProblemCode::lengthRequired, 411},
+    ProblemStatus{ProblemCode::tooLarge, 413, 431},
+    ProblemStatus{ProblemCode::unsupportedMediaType, 415},
+    ProblemStatus{ProblemCode::invalidScene, 422},
+    ProblemStatus{ProblemCode::unsupportedFeature, 422},
+    ProblemStatus{ProblemCode::hashMismatch, 422},
+    ProblemStatus{ProblemCode::busy, 429},
+    ProblemStatus{ProblemCode::deadlineExceeded, 504, 408, 408},
+    ProblemStatus{ProblemCode::unavailable, 503},
+    ProblemStatus{ProblemCode::insufficientStorage, 507},
+    ProblemStatus{ProblemCode::backend, 500},
+    ProblemStatus{ProblemCode::internal, 500},
+};
+static_assert(rowsAreComplete(kProblemStatuses, &ProblemStatus::code));
 
 } // namespace
 
@@ -115,45 +127,8 @@ HttpReply jsonReply(const Json& json, int status) {
 }
 
 int statusOf(ProblemCode code, RequestPart read) {
-  switch (code) {
-    case ProblemCode::malformed:
-    case ProblemCode::invalidValue:
-      return 400;
-    case ProblemCode::unauthorized:
-      return 401;
-    case ProblemCode::forbidden:
-      return 403;
-    case ProblemCode::notFound:
-      return 404;
-    case ProblemCode::methodNotAllowed:
-      return 405;
-    case ProblemCode::notAcceptable:
-      return 406;
-    case ProblemCode::lengthRequired:
-      return 411;
-    case ProblemCode::tooLarge:
-      return read == RequestPart::head ? 431 : 413;
-    case ProblemCode::unsupportedMediaType:
-      return 415;
-    case ProblemCode::invalidScene:
-    case ProblemCode::unsupportedFeature:
-    case ProblemCode::hashMismatch:
-      return 422;
-    case ProblemCode::misdirected:
-      return 421;
-    case ProblemCode::busy:
-      return 429;
-    case ProblemCode::unavailable:
-      return 503;
-    case ProblemCode::deadlineExceeded:
-      return read == RequestPart::whole ? 504 : 408;
-    case ProblemCode::insufficientStorage:
-      return 507;
-    case ProblemCode::backend:
-    case ProblemCode::internal:
-      return 500;
-  }
-  return 500;
+  const ProblemStatus& row = kProblemStatuses[static_cast<std::size_t>(code)];
+  return read == RequestPart::whole ? row.whole : read == RequestPart::head ? row.head : row.body;
 }
 
 HttpReply problemReply(const Problems& problems, std::string_view instance, const ProblemReplyOptions& options) {
@@ -166,6 +141,7 @@ HttpReply problemReply(const Problems& problems, std::string_view instance, cons
     reply.headers.emplace_back("Retry-After", std::to_string(options.retryAfterSeconds));
   }
   reply.problem = problems.front().detail;
+  reply.refusal = options.refusal;
   return reply;
 }
 

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <charconv>
 #include <random>
 
-#include "protocol/base/bytes.h"
 #include "protocol/base/text.h"
-#include "server/http/trace_context.h"
-#include "server/http/url.h"
+#include "server/http/request_log.h"
+#include "server/system/numbers.h"
 
 namespace gnomon {
 namespace {
@@ -106,13 +104,10 @@ Status readFraming(RequestHead& head) {
     head.chunked = true;
   }
   if (length) {
-    std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(length->data(), length->data() + length->size(), value);
-    if (countOf(head.headers, "content-length") != 1 || error != std::errc() ||
-        end != length->data() + length->size()) {
+    head.contentLength = numberIn<std::uint64_t>(*length);
+    if (countOf(head.headers, "content-length") != 1 || !head.contentLength) {
       return malformedHead("Content-Length is not one decimal number.");
     }
-    head.contentLength = value;
   }
   return Done{};
 }

@@ -48,7 +48,7 @@ std::optional<std::size_t> headLength(std::string_view bytes);
 /// chunks are malformed.
 Result<RequestHead> parseRequestHead(std::string_view bytes);
 
-/// Where a request stands in a trace (trace_context.h).
+/// Where a request stands in a trace (request_log.h).
 struct TraceContext {
   std::string traceId;  ///< 32 lower-case hexadecimal digits; empty = the request has none
   std::string spanId;   ///< 16 such digits: this request

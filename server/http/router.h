@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "protocol/access/access_key.h"
-#include "server/http/query.h"
 #include "server/http/reply.h"
 #include "server/http/request.h"
 #include "server/http/request_body.h"
+#include "server/http/url.h"
 
 namespace gnomon {
 
@@ -57,7 +57,6 @@ class Router {
 
   std::variant<RouteMatch, MethodRefused, NoSuchPath> find(std::string_view method,
                                                            const std::vector<std::string>& path) const;
-  const std::vector<Route>& routes() const { return routes_; }
 
  private:
   std::vector<Route> routes_;

@@ -17,8 +17,6 @@ class WorkerPool {
   /// Throws std::system_error where the system refuses a thread; none of the others is left then.
   explicit WorkerPool(std::size_t threads);
   ~WorkerPool() { shutdown(); }
-  WorkerPool(const WorkerPool&) = delete;
-  WorkerPool& operator=(const WorkerPool&) = delete;
 
   /// Whether a task would run. It stays true until the next tryRun() or shutdown().
   bool hasIdle();

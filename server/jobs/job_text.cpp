@@ -8,7 +8,7 @@
 #include "protocol/json/json_codec.h"
 #include "protocol/json/problem_rows.h"
 #include "protocol/sequence/sequence_json.h"
-#include "server/wire/sequence_news_rows.h"
+#include "server/wire/sequence_news.h"
 
 namespace gnomon {
 

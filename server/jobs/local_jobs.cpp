@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "protocol/sequence/carry.h"
-#include "server/jobs/job_problems.h"
 
 namespace gnomon {
 namespace {

@@ -1,14 +1,12 @@
 #include "server/jobs/redis_jobs.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <thread>
 
 #include "protocol/fields/fields.h"
 #include "protocol/job/job_rows.h"
 #include "protocol/sequence/carry.h"
-#include "server/jobs/job_problems.h"
 #include "server/jobs/job_scripts.h"
 #include "server/jobs/job_text.h"
 #include "server/system/clock.h"

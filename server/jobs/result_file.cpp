@@ -38,13 +38,7 @@ std::optional<std::uint64_t> ResultFile::add(std::span<const std::uint8_t> bytes
 
 std::optional<Bytes> ResultFile::read(std::uint64_t offset, std::size_t size) const {
   Bytes bytes(size);
-  std::size_t at = 0;
-  while (at < size) {
-    const ssize_t got = ::pread(file_.get(), bytes.data() + at, size - at, static_cast<off_t>(offset + at));
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return std::nullopt;
-    at += static_cast<std::size_t>(got);
-  }
+  if (!readAt(file_, offset, bytes)) return std::nullopt;
   return bytes;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <prometheus/metric_family.h>
 #include <vector>
@@ -9,10 +10,22 @@
 #include "server/dispatch/dispatcher.h"
 #include "server/frames/reply_cache.h"
 #include "server/jobs/job_queue.h"
-#include "server/metrics/process_use.h"
-#include "server/scenes/store_size.h"
+#include "server/scenes/scene_memory.h"
 
 namespace gnomon::metrics {
+
+/// What this process takes, by proc(5); 0 where that is unknown.
+struct ProcessUse {
+  std::uint64_t residentBytes = 0;
+  std::uint64_t virtualBytes = 0;
+  std::uint64_t openFiles = 0; ///< descriptors
+  std::uint64_t mostFiles = 0; ///< descriptors that it may have
+  std::uint64_t threads = 0;
+  double processorSeconds = 0; ///< user and system, of all its threads
+  double startSeconds = 0;     ///< since 1970
+};
+
+ProcessUse processUse();
 
 /// Bytes of a budget.
 struct BudgetUse {

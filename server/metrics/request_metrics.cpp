@@ -1,6 +1,5 @@
 #include "server/metrics/request_metrics.h"
 
-#include <array>
 #include <chrono>
 #include <iterator>
 #include <map>
@@ -10,10 +9,6 @@
 #include <prometheus/registry.h>
 #include <prometheus/text_serializer.h>
 #include <sstream>
-#include <string>
-#include <utility>
-
-#include "server/metrics/labels.h"
 
 namespace gnomon::metrics {
 namespace {

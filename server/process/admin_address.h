@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "server/handlers/handlers.h"
+#include "server/http/connection.h"
 #include "server/http/http_server.h"
+#include "server/metrics/readings.h"
+#include "server/process/serve.h"
 
 namespace gnomon {
 
@@ -28,8 +31,6 @@ class AdminAddress {
   static Result<std::unique_ptr<AdminAddress>> open(const AdminAddressOptions& options, Services& services,
                                                     RequestObserver& observer);
   ~AdminAddress();
-  AdminAddress(const AdminAddress&) = delete;
-  AdminAddress& operator=(const AdminAddress&) = delete;
 
  private:
   AdminAddress(const AdminAddressOptions& options, Services& services, RequestObserver& observer);
@@ -39,5 +40,8 @@ class AdminAddress {
   std::unique_ptr<HttpServer> server_;
   std::thread serving_;
 };
+
+/// What the server is like now. Reads the store's directory, if there is one.
+metrics::Snapshot snapshotOf(const ServeOptions& options, Services& services, const ConnectionContext& context);
 
 } // namespace gnomon

@@ -8,7 +8,6 @@
 #include <fstream>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <thread>
 #include <unistd.h>
 #include <utility>
@@ -17,21 +16,17 @@
 #include "server/access/access_check.h"
 #include "server/access/key_ring.h"
 #include "server/handlers/drake_form.h"
+#include "server/handlers/handlers.h"
 #include "server/handlers/job_runners.h"
-#include "server/handlers/routes.h"
 #include "server/http/http_server.h"
 #include "server/http/origin_check.h"
 #include "server/metrics/request_metrics.h"
 #include "server/process/admin_address.h"
-#include "server/process/descriptor_plan.h"
-#include "server/process/memory_plan.h"
+#include "server/process/resource_plan.h"
 #include "server/process/service_manager.h"
 #include "server/process/signals.h"
-#include "server/process/snapshot.h"
-#include "server/process/store_keeping.h"
-#include "server/process/store_opening.h"
+#include "server/process/stores.h"
 #include "server/system/file_descriptor.h"
-#include "server/system/heaps.h"
 #include "server/system/log.h"
 #include "server/system/memory_limit.h"
 

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "protocol/base/result.h"
 #include "server/process/serve.h"
 
 namespace CLI {
@@ -24,5 +25,13 @@ struct ConfigChoice {
   bool print = false; ///< print all options as such a file, and serve nothing
 };
 void addConfigFlags(CLI::App& command, ConfigChoice& choice);
+
+/// Gives each option that neither the command line nor the environment has set its value in a configuration file, which
+/// may name any option of the command but --config and --print-config. REQUIRES: the command line is parsed. Problems
+/// have the file and the line as their pointer.
+Status applyConfig(CLI::App& command, const std::string& file);
+
+/// Every option with its value as it is now, in the form that applyConfig reads.
+std::string configOf(const CLI::App& command);
 
 } // namespace gnomon

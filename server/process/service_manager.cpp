@@ -7,7 +7,6 @@
 #include <ctime>
 #include <memory>
 #include <netdb.h>
-#include <poll.h>
 #include <string_view>
 #include <sys/socket.h>
 #include <sys/time.h>
@@ -81,10 +80,9 @@ Watchdog::Watchdog(std::function<bool(std::chrono::milliseconds patience)> isWel
   if (::sd_watchdog_enabled(0, &allowed) <= 0) return;
   const auto period = std::chrono::duration_cast<std::chrono::milliseconds>(microseconds(allowed / 3));
   thread_ = std::thread([this, isWell = std::move(isWell), period, kLongest] {
-    pollfd stopped{stop_.fd(), POLLIN, 0};
     do {
       if (isWell(std::min(period, kLongest))) ::sd_notify(0, "WATCHDOG=1");
-    } while (::poll(&stopped, 1, static_cast<int>(period.count())) == 0);
+    } while (!stop_.waitFor(period));
   });
 }
 

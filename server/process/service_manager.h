@@ -29,8 +29,6 @@ class Watchdog {
  public:
   explicit Watchdog(std::function<bool(std::chrono::milliseconds patience)> isWell);
   ~Watchdog();
-  Watchdog(const Watchdog&) = delete;
-  Watchdog& operator=(const Watchdog&) = delete;
 
  private:
   StopSignal stop_;

@@ -1,10 +1,8 @@
 #include "server/process/signals.h"
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <cstdint>
 #include <poll.h>
 #include <sys/signalfd.h>
 #include <unistd.h>
@@ -27,8 +25,7 @@ Signals::Event Signals::wait(const StopSignal& done, Clock::time_point deadline)
   while (true) {
     std::array<pollfd, 3> waiting{
         {{signals_.get(), POLLIN, 0}, {done.fd(), POLLIN, 0}, {starter_.get(), POLLIN, 0}}}; // poll(2) skips -1
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
-    ::poll(waiting.data(), waiting.size(), static_cast<int>(std::clamp<std::int64_t>(left, 0, 60'000)));
+    ::poll(waiting.data(), waiting.size(), millisecondsUntil(deadline));
     if (waiting[1].revents != 0) return Event::done;
     signalfd_siginfo info{};
     if (waiting[0].revents != 0 && ::read(signals_.get(), &info, sizeof info) == sizeof info) {

@@ -1,24 +1,16 @@
 #include "server/redis/address.h"
 
 #include <algorithm>
-#include <charconv>
 #include <fstream>
 
 #include "protocol/base/bytes.h"
+#include "server/system/numbers.h"
 
 namespace gnomon::redis {
 namespace {
 
 constexpr std::string_view kPlain = "redis://";
 constexpr std::string_view kEncrypted = "rediss://";
-
-/// A whole number of the range; nothing where the text is something else.
-std::optional<int> numberIn(std::string_view text, int least, int most) {
-  int number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size() || number < least || number > most) return std::nullopt;
-  return number;
-}
 
 Problem refused(std::string detail, std::string limit = "redis[s]://[[USER]:PASSWORD@]HOST[:PORT][/DATABASE]") {
   return {ProblemCode::invalidValue, "", std::move(detail), std::move(limit), ""};

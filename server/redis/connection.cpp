@@ -1,9 +1,6 @@
 #include "server/redis/connection.h"
 
 #include <array>
-#include <poll.h>
-
-#include "server/redis/dial.h"
 
 namespace gnomon::redis {
 namespace {

@@ -1,35 +1,32 @@
 #include "server/redis/redis.h"
 
-#include <algorithm>
+#include <iterator>
 #include <utility>
 
-#include "server/redis/backoff.h"
 #include "server/system/log.h"
 
 namespace gnomon::redis {
 
-/// One of a pool's connections that may be open at once, for the time of a call.
+/// One of the connections that may be open at once, for the time of a call.
 class Redis::Place {
  public:
   /// Waits for one until the deadline.
-  Place(Redis& redis, Pool& pool, Clock::time_point deadline) : redis_(redis), pool_(pool) {
+  Place(Redis& redis, Clock::time_point deadline) : redis_(redis) {
     std::unique_lock lock(redis_.mutex_);
-    taken_ = redis_.placeFree_.wait_until(lock, deadline, [&] { return pool_.taken < pool_.most; });
+    taken_ = redis_.placeFree_.wait_until(lock, deadline, [&] { return redis_.taken_ < redis_.options_.connections; });
     if (!taken_) return;
-    ++pool_.taken;
-    if (pool_.idle.empty()) return;
-    connection = std::move(pool_.idle.back());
-    pool_.idle.pop_back();
+    ++redis_.taken_;
+    if (redis_.idle_.empty()) return;
+    connection = std::move(redis_.idle_.back());
+    redis_.idle_.pop_back();
   }
-  Place(const Place&) = delete;
-  Place& operator=(const Place&) = delete;
 
   ~Place() {
     if (!taken_) return;
     {
       const std::lock_guard lock(redis_.mutex_);
-      --pool_.taken;
-      if (connection) pool_.idle.push_back(std::move(connection));
+      --redis_.taken_;
+      if (connection) redis_.idle_.push_back(std::move(connection));
     }
     redis_.placeFree_.notify_all();
   }
@@ -40,17 +37,11 @@ class Redis::Place {
 
  private:
   Redis& redis_;
-  Pool& pool_;
   bool taken_ = false;
 };
 
-Redis::Redis(Options options)
-    : options_(std::move(options)),
-      pool_{options_.connections},
-      blocking_{options_.blockingConnections},
-      random_(std::random_device()()) {
-  pool_.idle.reserve(pool_.most);
-  blocking_.idle.reserve(blocking_.most);
+Redis::Redis(Options options) : options_(std::move(options)), random_(std::random_device()()) {
+  idle_.reserve(options_.connections);
 }
 
 Problem Redis::away() const {
@@ -69,10 +60,8 @@ Problem Redis::lost(const Problem& reason, bool isProbe) {
       const double random = static_cast<double>(random_()) / static_cast<double>(std::minstd_rand::max());
       nextAttempt_ = Clock::now() + backoffDelay(++failuresInARow_, random);
     }
-    for (Pool* pool : {&pool_, &blocking_}) {
-      std::move(pool->idle.begin(), pool->idle.end(), std::back_inserter(closing));
-      pool->idle.clear();
-    }
+    closing.assign(std::make_move_iterator(idle_.begin()), std::make_move_iterator(idle_.end()));
+    idle_.clear();
   }
   if (isNews) logEvent("redis", shownText(options_.address) + " is away. " + reason.detail + ".");
   return away();
@@ -104,7 +93,7 @@ Result<std::unique_ptr<Connection>> Redis::connect(const Call& call) {
   return opened;
 }
 
-Result<std::vector<Reply>> Redis::call(Pool& pool, const std::vector<Command>& commands, const Call& call) {
+Result<std::vector<Reply>> Redis::pipeline(const std::vector<Command>& commands, const Call& call) {
   const auto failed = [&](Problem problem) {
     const std::lock_guard lock(mutex_);
     ++counted_.failures;
@@ -114,7 +103,7 @@ Result<std::vector<Reply>> Redis::call(Pool& pool, const std::vector<Command>& c
     const std::lock_guard lock(mutex_);
     ++counted_.calls;
   }
-  Place place(*this, pool, call.deadline);
+  Place place(*this, call.deadline);
   if (!place.isTaken()) return failed(away());
   if (place.connection && !place.connection->isQuiet()) place.connection.reset();
   if (!place.connection) {
@@ -135,18 +124,8 @@ Result<std::vector<Reply>> Redis::call(Pool& pool, const std::vector<Command>& c
   return failed(isCut ? away() : lost(replies.problems().front(), false));
 }
 
-Result<std::vector<Reply>> Redis::pipeline(const std::vector<Command>& commands, const Call& call) {
-  return this->call(pool_, commands, call);
-}
-
 Result<Reply> Redis::ask(const Command& command, const Call& call) {
   auto replies = pipeline({command}, call);
-  if (!replies) return std::move(replies).problems();
-  return std::move(replies->front());
-}
-
-Result<Reply> Redis::block(const Command& command, const Call& call) {
-  auto replies = this->call(blocking_, {command}, call);
   if (!replies) return std::move(replies).problems();
   return std::move(replies->front());
 }
@@ -172,7 +151,7 @@ Use Redis::use() const {
   const std::lock_guard lock(mutex_);
   Use use = counted_;
   use.isReachable = failuresInARow_ == 0;
-  use.connections = pool_.taken + pool_.idle.size() + blocking_.taken + blocking_.idle.size();
+  use.connections = taken_ + idle_.size();
   return use;
 }
 

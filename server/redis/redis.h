@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <memory>
@@ -19,7 +21,6 @@ namespace gnomon::redis {
 struct Options {
   Address address;
   std::size_t connections = 8;                      ///< >= 1; for calls at the same time; others wait for one
-  std::size_t blockingConnections = 8;              ///< >= 1; the same, for calls of block()
   std::chrono::milliseconds connectPatience{2'000}; ///< for one attempt to connect, where the call has so much time
 };
 
@@ -51,10 +52,6 @@ class Redis {
   Result<Reply> run(const Script& script, const std::vector<std::string>& keys,
                     const std::vector<std::string>& arguments, const Call& call);
 
-  /// A command that waits in the server, as XREADGROUP with BLOCK. It has to end before the call's deadline by itself.
-  /// Takes no connection from other calls.
-  Result<Reply> block(const Command& command, const Call& call);
-
   /// A connection for the caller alone, as for what it subscribes to.
   Result<std::unique_ptr<Connection>> connect(const Call& call);
 
@@ -63,15 +60,8 @@ class Redis {
   const Address& address() const { return options_.address; }
 
  private:
-  /// Connections of one purpose.
-  struct Pool {
-    const std::size_t most;
-    std::size_t taken = 0;
-    std::vector<std::unique_ptr<Connection>> idle{};
-  };
   class Place;
 
-  Result<std::vector<Reply>> call(Pool& pool, const std::vector<Command>& commands, const Call& call);
   Problem lost(const Problem& reason, bool isProbe);
   void reached();
   Problem away() const;
@@ -79,12 +69,22 @@ class Redis {
   const Options options_;
   mutable std::mutex mutex_;
   std::condition_variable placeFree_;
-  Pool pool_;
-  Pool blocking_;
+  std::size_t taken_ = 0; ///< connections in calls
+  std::vector<std::unique_ptr<Connection>> idle_;
   int failuresInARow_ = 0;
   Clock::time_point nextAttempt_ = Clock::time_point::min();
   std::minstd_rand random_;
   Use counted_;
 };
+
+/// How long to leave a server alone after so many failures in a row, >= 1: from 50 ms on twice as long each time, up
+/// to 5 s, and of that between half and all, so that many clients do not come at once. `random`: 0..1.
+inline std::chrono::milliseconds backoffDelay(int failures, double random) {
+  constexpr std::chrono::milliseconds kFirst{50};
+  constexpr std::chrono::milliseconds kLongest{5'000};
+  constexpr int kDoublings = 7; // more would pass the longest
+  const auto whole = std::min(kFirst * (1 << std::clamp(failures - 1, 0, kDoublings)), kLongest);
+  return std::chrono::milliseconds(static_cast<std::int64_t>(static_cast<double>(whole.count()) * (0.5 + random / 2)));
+}
 
 } // namespace gnomon::redis

@@ -5,7 +5,6 @@
 #include <new>
 #include <openssl/evp.h>
 #include <span>
-#include <stdexcept>
 
 #include "protocol/base/bytes.h"
 

@@ -14,6 +14,9 @@ struct ssl_st;
 
 namespace gnomon::redis {
 
+/// Waits until a descriptor has one of the events of poll(2); false where the deadline comes first or `cut` is raised.
+bool waitFor(int fd, short events, Clock::time_point deadline, const StopSignal* cut);
+
 /// What an attempt to move bytes came to.
 struct Moved {
   std::size_t bytes = 0;

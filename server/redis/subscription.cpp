@@ -4,8 +4,7 @@
 #include <exception>
 #include <poll.h>
 
-#include "server/redis/backoff.h"
-#include "server/redis/dial.h"
+#include "server/redis/stream.h"
 #include "server/system/log.h"
 
 namespace gnomon::redis {

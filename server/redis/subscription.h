@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <string>
 #include <thread>
 
@@ -22,8 +21,6 @@ class Subscription {
   /// Both functions are called by the subscription's thread; what they throw is logged. `redis` outlives it.
   Subscription(Redis& redis, std::string channel, Listener listener);
   ~Subscription();
-  Subscription(const Subscription&) = delete;
-  Subscription& operator=(const Subscription&) = delete;
 
  private:
   void run();

@@ -6,7 +6,6 @@
 
 #include "protocol/base/scene_id.h"
 #include "server/scenes/redis_scripts.h"
-#include "server/scenes/redis_upload.h"
 #include "server/system/log.h"
 #include "server/wire/bundle.h"
 
@@ -38,7 +37,7 @@ RedisBackend::RedisBackend(std::shared_ptr<redis::Redis> redis, Options options)
 Result<std::vector<std::string>> RedisBackend::missing(const std::vector<std::string>& ids) {
   std::vector<std::string> missing;
   if (ids.empty()) return missing;
-  auto reply = answered(redis_->run(redis_scripts::use(), {}, ids, storeCall()));
+  auto reply = answered(redis_->run(redis_scripts::kUse, {}, ids, storeCall()));
   if (!reply) return std::move(reply).problems();
   for (redis::Reply& id : reply->elements) missing.push_back(std::move(id.text));
   return missing;
@@ -191,7 +190,7 @@ std::optional<std::string> RedisBackend::summary(const std::string& id) {
 void RedisBackend::keepSummary(const std::string& id, const std::string& summary) {
   memory_.replaceSummary(id, summary);
   const auto kept =
-      answered(redis_->run(redis_scripts::keepSummary(), {sceneKey(id), summaryKey(id)}, {summary}, storeCall()));
+      answered(redis_->run(redis_scripts::kKeepSummary, {sceneKey(id), summaryKey(id)}, {summary}, storeCall()));
   if (!kept) logEvent("store", "A summary could not be written.");
 }
 
@@ -201,7 +200,7 @@ void RedisBackend::setAside(const std::string& id) {
 }
 
 Status RedisBackend::remove(const std::string& id) {
-  const auto reply = answered(redis_->run(redis_scripts::remove(), {}, {id, channel_}, storeCall()));
+  const auto reply = answered(redis_->run(redis_scripts::kRemove, {}, {id, channel_}, storeCall()));
   if (!reply) return reply.problems();
   memory_.remove(id);
   if (reply->integer == 0) return unknownScene(id);
@@ -232,7 +231,7 @@ void RedisBackend::keepClean(const SceneListener& removed) {
   markUsed();
   if (options_.age.count() == 0) return;
   const std::string age = std::to_string(std::chrono::milliseconds(options_.age).count());
-  const auto reply = answered(redis_->run(redis_scripts::removeUnused(), {}, {age, channel_, "100"}, storeCall()));
+  const auto reply = answered(redis_->run(redis_scripts::kRemoveUnused, {}, {age, channel_, "100"}, storeCall()));
   if (!reply) return;
   for (const redis::Reply& id : reply->elements) {
     if (!isSceneId(id.text)) continue;

@@ -52,4 +52,18 @@ Result<redis::Reply> answered(Result<redis::Reply> reply);
 /// A call of a store, other than those that move parts. `bytes`: of its reply.
 redis::Call storeCall(std::size_t bytes = 1 << 20);
 
+/// insufficientStorage where so many bytes have no room in the quota now; 0 = there is none.
+Status checkRedisRoom(redis::Redis& redis, std::uint64_t quotaBytes, std::uint64_t bytes);
+
+struct RedisUpload {
+  const std::string& id;
+  const FileDescriptor& bundle;
+  std::uint64_t bytes = 0; ///< of the bundle
+  const std::string& summary;
+};
+
+/// Keeps a scene whole or not at all. False where it is there already, and marks it as used. Problems: unavailable, and
+/// insufficientStorage where the quota or Redis has no room.
+Result<bool> uploadToRedis(redis::Redis& redis, std::uint64_t quotaBytes, const RedisUpload& upload);
+
 } // namespace gnomon

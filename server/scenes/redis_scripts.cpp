@@ -42,8 +42,7 @@ redis::Script with(const char* text) {
 
 } // namespace
 
-const redis::Script& begin() {
-  static const redis::Script script = with(R"lua(
+const redis::Script kBegin = with(R"lua(
 if redis.call('EXISTS', KEYS[1]) == 1 then
   redis.call('ZADD', KEYS[2], 'XX', now(), ARGV[1])
   return {1, 0}
@@ -57,11 +56,8 @@ if tonumber(ARGV[4]) > 0 and taken + tonumber(ARGV[3]) > tonumber(ARGV[4]) then 
 if ARGV[2] ~= '' then redis.call('ZADD', KEYS[4], now() + tonumber(ARGV[5]), ARGV[2]) end
 return {0, taken}
 )lua");
-  return script;
-}
 
-const redis::Script& commit() {
-  static const redis::Script script = with(R"lua(
+const redis::Script kCommit = with(R"lua(
 redis.call('ZREM', KEYS[4], ARGV[2])
 if redis.call('EXISTS', KEYS[1]) == 1 then
   eachPart('UNLINK', ARGV[3], ARGV[5])
@@ -79,28 +75,19 @@ redis.call('ZADD', KEYS[2], now(), ARGV[1])
 redis.call('INCRBY', KEYS[3], ARGV[4])
 return 1
 )lua");
-  return script;
-}
 
-const redis::Script& abandon() {
-  static const redis::Script script = with(R"lua(
+const redis::Script kAbandon = with(R"lua(
 eachPart('UNLINK', ARGV[2], ARGV[3])
 return redis.call('ZREM', KEYS[1], ARGV[1])
 )lua");
-  return script;
-}
 
-const redis::Script& keepSummary() {
-  static const redis::Script script = with(R"lua(
+const redis::Script kKeepSummary = with(R"lua(
 if redis.call('EXISTS', KEYS[1]) == 0 then return 0 end
 redis.call('SET', KEYS[2], ARGV[1])
 return 1
 )lua");
-  return script;
-}
 
-const redis::Script& use() {
-  static const redis::Script script = with(R"lua(
+const redis::Script kUse = with(R"lua(
 local missing = {}
 for _, id in ipairs(ARGV) do
   if redis.call('EXISTS', 'gnomon:scene:' .. id) == 1 then
@@ -111,16 +98,10 @@ for _, id in ipairs(ARGV) do
 end
 return missing
 )lua");
-  return script;
-}
 
-const redis::Script& remove() {
-  static const redis::Script script = with("return removeScene(ARGV[1], ARGV[2])");
-  return script;
-}
+const redis::Script kRemove = with("return removeScene(ARGV[1], ARGV[2])");
 
-const redis::Script& removeUnused() {
-  static const redis::Script script = with(R"lua(
+const redis::Script kRemoveUnused = with(R"lua(
 local last = string.format('%.0f', now() - tonumber(ARGV[1]))
 local ids = redis.call('ZRANGEBYSCORE', 'gnomon:used', '-inf', '(' .. last, 'LIMIT', 0, ARGV[3])
 for _, id in ipairs(ids) do
@@ -128,11 +109,8 @@ for _, id in ipairs(ids) do
 end
 return ids
 )lua");
-  return script;
-}
 
-const redis::Script& commitMap() {
-  static const redis::Script script = with(R"lua(
+const redis::Script kCommitMap = with(R"lua(
 if redis.call('EXISTS', KEYS[1]) == 1 or eachPart('PERSIST', ARGV[2], ARGV[4]) ~= tonumber(ARGV[4]) then
   eachPart('UNLINK', ARGV[2], ARGV[4])
   return 0
@@ -148,22 +126,14 @@ while taken > tonumber(ARGV[5]) do
 end
 return 1
 )lua");
-  return script;
-}
 
-const redis::Script& useMap() {
-  static const redis::Script script = with("return redis.call('ZADD', 'gnomon:maps', 'XX', now(), ARGV[1])");
-  return script;
-}
+const redis::Script kUseMap = with("return redis.call('ZADD', 'gnomon:maps', 'XX', now(), ARGV[1])");
 
-const redis::Script& removeMaps() {
-  static const redis::Script script = with(R"lua(
+const redis::Script kRemoveMaps = with(R"lua(
 for _, key in ipairs(redis.call('ZRANGE', 'gnomon:maps', 0, -1)) do
   if string.sub(key, 1, 65) == ARGV[1] .. '-' then removeMap(key) end
 end
 return 1
 )lua");
-  return script;
-}
 
 } // namespace gnomon::redis_scripts

@@ -41,35 +41,35 @@ namespace gnomon::redis_scripts {
 
 /// KEYS: scene, used, bytes, writing. ARGV: id, "TOKEN:BYTES" or nothing, bytes, quota (0 = none), milliseconds.
 /// {1, taken}: the scene is there, and used now. {2, taken}: there is no room. {0, taken}: its parts may be written.
-const redis::Script& begin();
+extern const redis::Script kBegin;
 
 /// KEYS: scene, used, bytes, writing, scenes, summary. ARGV: id, "TOKEN:BYTES", token, bytes, count, summary. 1: the
 /// scene is there now. 0: it was there, and the parts are removed. An error GONE: parts have expired.
-const redis::Script& commit();
+extern const redis::Script kCommit;
 
 /// KEYS: writing. ARGV: "TOKEN:BYTES", token, count. Removes the parts.
-const redis::Script& abandon();
+extern const redis::Script kAbandon;
 
 /// KEYS: scene, summary. ARGV: summary. Replaces it where the scene is there.
-const redis::Script& keepSummary();
+extern const redis::Script kKeepSummary;
 
 /// ARGV: ids. Marks them as used now. The ids that are not there.
-const redis::Script& use();
+extern const redis::Script kUse;
 
 /// ARGV: id, channel. 1, or 0 where it was not there.
-const redis::Script& remove();
+extern const redis::Script kRemove;
 
 /// ARGV: milliseconds, channel, the most ids. Removes scenes that were not used for so long. Their ids.
-const redis::Script& removeUnused();
+extern const redis::Script kRemoveUnused;
 
 /// KEYS: light map. ARGV: key, token, bytes, count, budget. Keeps a light map, and drops those that were not used for
 /// longest, down to the budget. Where it is there already, or its parts have expired, the parts are removed.
-const redis::Script& commitMap();
+extern const redis::Script kCommitMap;
 
 /// ARGV: key. Marks a light map as used now.
-const redis::Script& useMap();
+extern const redis::Script kUseMap;
 
 /// ARGV: scene's id. Removes the light maps of a scene.
-const redis::Script& removeMaps();
+extern const redis::Script kRemoveMaps;
 
 } // namespace gnomon::redis_scripts

@@ -2,15 +2,12 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "protocol/base/result.h"
 #include "server/scenes/scene_memory.h"
-#include "server/scenes/scene_page.h"
-#include "server/scenes/store_size.h"
 
 namespace gnomon {
 

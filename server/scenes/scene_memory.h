@@ -1,18 +1,67 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "protocol/base/lru.h"
-#include "server/scenes/scene_page.h"
-#include "server/scenes/store_size.h"
 #include "server/system/file_descriptor.h"
 
 namespace gnomon {
+
+/// How much is stored.
+struct StoreSize {
+  std::size_t scenes = 0;
+  std::uint64_t bytes = 0; ///< of their bundles; in memory with their summaries
+};
+
+/// How a store that is elsewhere does; of any other, the defaults.
+struct StoreState {
+  bool isReachable = true;
+  std::size_t connections = 0;
+  std::uint64_t calls = 0;    ///< since the start
+  std::uint64_t failures = 0; ///< of those: without an answer
+  StoreSize inMemory{};       ///< scenes that need no call
+  std::uint64_t hits = 0;     ///< bundles that were asked for, since the start: in memory
+  std::uint64_t misses = 0;   ///< and read from the store
+};
+
+/// A part of the list of scenes.
+struct ScenePage {
+  std::vector<std::string> ids; ///< ascending
+  bool hasMore = false;         ///< others follow the last
+};
+
+/// Finds a page among ids that come in any order, and never holds more than one page of them.
+class PageFinder {
+ public:
+  /// The first `limit` >= 1 ids behind `after`; empty = from the beginning.
+  PageFinder(std::string_view after, std::size_t limit) : after_(after), limit_(limit) {}
+
+  void see(std::string_view id) {
+    if (id <= after_ || (found_.size() > limit_ && id >= *found_.rbegin())) return;
+    found_.emplace(id);
+    if (found_.size() > limit_ + 1) found_.erase(std::prev(found_.end()));
+  }
+
+  ScenePage page() && {
+    ScenePage page{{}, found_.size() > limit_};
+    if (page.hasMore) found_.erase(std::prev(found_.end()));
+    page.ids.assign(found_.begin(), found_.end());
+    return page;
+  }
+
+ private:
+  std::string after_;
+  std::size_t limit_;
+  std::set<std::string, std::less<>> found_; ///< one more than the page has, which shows that there are others
+};
 
 using BundlePtr = std::shared_ptr<const FileDescriptor>;
 

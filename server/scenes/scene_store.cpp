@@ -49,7 +49,7 @@ class MemoryBackend : public SceneBackend {
 };
 
 Result<std::unique_ptr<SceneBackend>> openBackend(const SceneStoreOptions& options) {
-  if (!options.directory.empty()) return DirectoryBackend::open(options.directory, options.storedBytes, options.age);
+  if (!options.directory.empty()) return openSceneDirectory(options.directory, options.storedBytes, options.age);
   if (options.redis) {
     return std::unique_ptr<SceneBackend>(std::make_unique<RedisBackend>(
         options.redis,

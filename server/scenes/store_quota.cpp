@@ -1,7 +1,6 @@
 #include "server/scenes/store_quota.h"
 
 #include <algorithm>
-#include <string>
 
 namespace gnomon {
 

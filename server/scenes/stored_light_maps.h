@@ -1,9 +1,12 @@
 #pragma once
 
+#include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 
 #include "protocol/base/scene_id.h"
+#include "server/redis/redis.h"
 #include "server/system/file_descriptor.h"
 #include "server/wire/bundle.h"
 
@@ -34,5 +37,41 @@ inline bool isLightMapKey(std::string_view key) {
   return key.size() == 2 * kId + 1 && isSceneId(key.substr(0, kId)) && key[kId] == '-' &&
          isSceneId(key.substr(kId + 1));
 }
+
+/// Light maps on disk, one file each, "<key>.map". What the disk refuses is logged.
+class LightMapDirectory : public StoredLightMaps {
+ public:
+  /// Removes what an interrupted write left. The directory itself is made with the first map.
+  LightMapDirectory(std::string path, std::size_t budgetBytes);
+
+  FileDescriptor open(const std::string& key) override;
+  void write(const std::string& key, const FileDescriptor& lightMap) override;
+  void removeScene(const std::string& sceneId) override;
+  void cleanUp() override;
+
+ private:
+  std::string pathOf(const std::string& key) const { return path_ + "/" + key + ".map"; }
+  void drop();
+
+  std::string path_;
+  std::size_t budgetBytes_;
+  std::mutex dropping_;
+};
+
+/// Light maps in Redis (redis_scripts.h). While it is away, there are none.
+class RedisLightMaps : public StoredLightMaps {
+ public:
+  RedisLightMaps(std::shared_ptr<redis::Redis> redis, std::size_t budgetBytes)
+      : redis_(std::move(redis)), budgetBytes_(budgetBytes) {}
+
+  FileDescriptor open(const std::string& key) override;
+  void write(const std::string& key, const FileDescriptor& lightMap) override;
+  void removeScene(const std::string& sceneId) override;
+  void cleanUp() override {} ///< unfinished ones expire by themselves
+
+ private:
+  const std::shared_ptr<redis::Redis> redis_;
+  const std::size_t budgetBytes_;
+};
 
 } // namespace gnomon

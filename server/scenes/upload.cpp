@@ -4,8 +4,8 @@
 
 #include "protocol/base/bytes.h"
 #include "protocol/base/text.h"
-#include "server/http/query.h"
-#include "server/system/memory_file.h"
+#include "server/http/url.h"
+#include "server/system/file_descriptor.h"
 #include "server/wire/bundle.h"
 
 namespace gnomon {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -9,9 +10,20 @@
 #include <string_view>
 
 #include "protocol/base/bytes.h"
+#include "server/system/file_descriptor.h"
 
 /// Files that appear whole or not at all.
 namespace gnomon {
+
+// Several processes use and remove these: a file's time of change says when it was used last, and a shared lock (flock)
+// that it is in use.
+
+/// Opens a file for reading, holds a shared lock on it until every copy of the descriptor is closed, and marks it as
+/// used now, unless its mark is younger than `resolution`. Empty, with errno, where there is none.
+FileDescriptor openUsed(const std::string& path, std::chrono::milliseconds resolution);
+
+/// Removes a file that has not been used for so long and is not in use. False where it stays.
+bool removeIfUnused(const std::string& path, std::chrono::seconds age);
 
 using FileSink = std::function<void(std::span<const std::uint8_t>)>;
 

@@ -1,8 +1,11 @@
 #include "server/system/file_descriptor.h"
 
-#include <cstdint>
+#include <cerrno>
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/eventfd.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
 
@@ -31,9 +34,70 @@ void StopSignal::raise() noexcept {
   [[maybe_unused]] const auto written = ::write(event_.get(), &one, sizeof one);
 }
 
-bool StopSignal::raised() const {
+bool StopSignal::waitFor(std::chrono::milliseconds patience) const {
   pollfd waiting{event_.get(), POLLIN, 0};
-  return ::poll(&waiting, 1, 0) == 1;
+  return ::poll(&waiting, 1, static_cast<int>(patience.count())) == 1;
+}
+
+MemoryFileWriter::MemoryFileWriter()
+    : file_(::memfd_create("gnomon", MFD_CLOEXEC | MFD_ALLOW_SEALING)), whole_(bool(file_)) {}
+
+void MemoryFileWriter::add(std::span<const std::uint8_t> bytes) {
+  whole_ = whole_ && writeAll(file_, bytes);
+}
+
+std::optional<FileDescriptor> MemoryFileWriter::finish() {
+  constexpr int kSeals = F_SEAL_SEAL | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE;
+  if (!whole_ || ::fcntl(file_.get(), F_ADD_SEALS, kSeals) != 0) return std::nullopt;
+  whole_ = false;
+  return std::move(file_);
+}
+
+std::optional<FileDescriptor> memoryFile(std::span<const std::uint8_t> bytes) {
+  MemoryFileWriter writer;
+  writer.add(bytes);
+  return writer.finish();
+}
+
+std::optional<std::size_t> sizeOf(const FileDescriptor& file) {
+  struct stat status {};
+  if (::fstat(file.get(), &status) != 0 || status.st_size < 0) return std::nullopt;
+  return static_cast<std::size_t>(status.st_size);
+}
+
+bool readAt(const FileDescriptor& file, std::uint64_t offset, std::span<std::uint8_t> room) {
+  while (!room.empty()) {
+    const ssize_t count = ::pread(file.get(), room.data(), room.size(), static_cast<off_t>(offset));
+    if (count == 0 || (count < 0 && errno != EINTR)) return false;
+    if (count < 0) continue;
+    room = room.subspan(static_cast<std::size_t>(count));
+    offset += static_cast<std::uint64_t>(count);
+  }
+  return true;
+}
+
+bool writeAll(const FileDescriptor& file, std::span<const std::uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(file.get(), bytes.data(), bytes.size());
+    if (count == 0 || (count < 0 && errno != EINTR)) return false;
+    if (count > 0) bytes = bytes.subspan(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
+std::optional<Bytes> readFile(const FileDescriptor& file, std::size_t most) {
+  const auto size = sizeOf(file);
+  if (!size || *size > most) return std::nullopt;
+  Bytes bytes(*size);
+  return readAt(file, 0, bytes) ? std::optional(std::move(bytes)) : std::nullopt;
+}
+
+std::optional<std::string> readText(const FileDescriptor& file, std::size_t most) {
+  const auto size = sizeOf(file);
+  if (!size || *size > most) return std::nullopt;
+  std::string text(*size, '\0');
+  const std::span room(reinterpret_cast<std::uint8_t*>(text.data()), text.size());
+  return readAt(file, 0, room) ? std::optional(std::move(text)) : std::nullopt;
 }
 
 } // namespace gnomon

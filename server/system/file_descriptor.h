@@ -1,5 +1,14 @@
 #pragma once
 
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "protocol/base/bytes.h"
+
 namespace gnomon {
 
 /// Owns a file descriptor.
@@ -24,11 +33,45 @@ class StopSignal {
  public:
   StopSignal();
   void raise() noexcept;
-  bool raised() const;
+  bool raised() const { return waitFor(std::chrono::milliseconds(0)); }
+  bool waitFor(std::chrono::milliseconds patience) const; ///< true once it is raised; false where that comes later
   int fd() const { return event_.get(); }
 
  private:
   FileDescriptor event_;
 };
+
+/// Bytes in memory behind a descriptor (memfd_create(2)), so that another process can be given them without a copy. The
+/// memory is freed when the last descriptor is closed.
+class MemoryFileWriter {
+ public:
+  MemoryFileWriter();
+
+  /// Appends. Once the system has refused memory, nothing more is written.
+  void add(std::span<const std::uint8_t> bytes);
+
+  /// The file, sealed: no process can change or shorten it any more. Nothing where the system refused memory.
+  std::optional<FileDescriptor> finish();
+
+ private:
+  FileDescriptor file_;
+  bool whole_ = true;
+};
+
+std::optional<FileDescriptor> memoryFile(std::span<const std::uint8_t> bytes);
+
+/// Fills `room` with the bytes from `offset` on; false where the file has fewer, or can't be read.
+bool readAt(const FileDescriptor& file, std::uint64_t offset, std::span<std::uint8_t> room);
+
+/// Writes all bytes where the file's offset is; false, with errno, where the system refuses.
+bool writeAll(const FileDescriptor& file, std::span<const std::uint8_t> bytes);
+
+/// How many bytes a file has; nothing where that is unknown.
+std::optional<std::size_t> sizeOf(const FileDescriptor& file);
+
+/// All bytes of a file, from its begin on, wherever its offset is; nothing where there are more than `most`, or where
+/// it can't be read.
+std::optional<Bytes> readFile(const FileDescriptor& file, std::size_t most);
+std::optional<std::string> readText(const FileDescriptor& file, std::size_t most); ///< the same, as text
 
 } // namespace gnomon

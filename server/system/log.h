@@ -22,8 +22,6 @@ class LineWriter {
 
   /// Ends at once: what still waits is lost. flush() comes before it.
   ~LineWriter();
-  LineWriter(const LineWriter&) = delete;
-  LineWriter& operator=(const LineWriter&) = delete;
 
   /// Takes one line, without its end, or drops it.
   void put(std::string_view line);

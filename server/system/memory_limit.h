@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace gnomon {
 
@@ -14,5 +15,17 @@ std::uint64_t memoryLimit();
 /// The least limit of a control group and those above it (cgroups(7): memory.max of version 2, memory.limit_in_bytes of
 /// version 1). `root`: where they are mounted. `ownGroups`: the text of /proc/self/cgroup. Nothing = none is set.
 std::optional<std::uint64_t> memoryGranted(const std::filesystem::path& root, const std::string& ownGroups);
+
+/// Large blocks come from the system and go back to it at once. A heap keeps what a frame takes free at its end: pages
+/// that go and come with every frame cost an eighth of a small one. Threads share a few heaps, so
+/// that what all of them keep is bounded. By default (mallopt(3)) the allocator makes eight for each core and
+/// raises the sizes as it sees larger blocks, and a server never returns memory. Its own variables have the last word.
+void boundHeaps(int heaps);
+
+/// GLIBC_TUNABLES, as "NAME=VALUE", for a process whose heaps ask for huge pages: what is touched for the first time
+/// then costs one fault for 2 MiB instead of 512, which in some virtual machines is half of a first frame, for some MiB
+/// more memory. The allocator reads this only as a process starts. `own`: the variable's value so far, which has the
+/// last word. A system that is set to never use huge pages passes over it.
+std::string hugePagesVariable(std::string_view own);
 
 } // namespace gnomon

@@ -1,6 +1,5 @@
 #include "server/wire/channel.h"
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -8,7 +7,6 @@
 #include <sys/socket.h>
 
 #include "protocol/base/bytes.h"
-#include "server/system/memory_file.h"
 
 namespace gnomon {
 namespace {

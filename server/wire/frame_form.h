@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "protocol/spec/output_options.h"
+#include "protocol/spec/format_traits.h"
 
 namespace gnomon {
 
@@ -18,10 +18,19 @@ struct FrameForm {
   ImageFormat format = ImageFormat::png; ///< of the pictures
 };
 
-std::string_view mediaTypeOf(ImageFormat format);
-std::string_view mediaTypeOf(FrameForm form); ///< without the boundary
+inline std::string_view mediaTypeOf(ImageFormat format) {
+  return traitsOf(format).mediaType;
+}
+
+/// Without the boundary.
+inline std::string_view mediaTypeOf(FrameForm form) {
+  if (form.form == ReplyForm::image) return mediaTypeOf(form.format);
+  return form.form == ReplyForm::multipart ? "multipart/mixed" : "application/json";
+}
 
 /// Holds the frame's report, and so differs each time that it is made.
-bool tellsTimes(FrameForm form);
+inline bool tellsTimes(FrameForm form) {
+  return form.form != ReplyForm::image || traitsOf(form.format).hasReport;
+}
 
 } // namespace gnomon

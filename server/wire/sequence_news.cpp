@@ -6,7 +6,6 @@
 #include "protocol/fields/field_encode.h"
 #include "protocol/fields/type_tables.h"
 #include "protocol/json/json_codec.h"
-#include "server/wire/sequence_news_rows.h"
 
 namespace gnomon {
 

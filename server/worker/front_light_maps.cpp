@@ -3,7 +3,6 @@
 #include <array>
 #include <limits>
 
-#include "server/system/memory_file.h"
 #include "server/wire/messages.h"
 
 namespace gnomon {

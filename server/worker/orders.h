@@ -2,18 +2,39 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
+#include "protocol/base/lru.h"
 #include "protocol/cost/cost_model.h"
 #include "server/system/byte_budget.h"
 #include "server/wire/messages.h"
-#include "server/worker/quality_choices.h"
 #include "server/worker/render_thread.h"
 #include "server/worker/scene_loader.h"
 
 /// What a worker does: one function for each kind of order. Each runs on a thread of its own.
 namespace gnomon {
+
+/// Settings chosen for earlier frames with a target, by what decides them; the least recently used are dropped first.
+/// Any thread.
+class QualityChoices {
+ public:
+  /// `key`: any text. Only its hash is kept.
+  std::optional<QualityReport> find(const std::string& key);
+  void keep(const std::string& key, const QualityReport& report);
+
+ private:
+  static constexpr std::size_t kMost = 1024; ///< a few hundred bytes each
+
+  struct Entry {
+    std::string hash;
+    QualityReport report;
+  };
+
+  std::mutex mutex_;
+  LruList<Entry> entries_;
+};
 
 /// What all orders of a worker share. Outlives them; each part may be used by any thread.
 struct WorkContext {

@@ -7,7 +7,6 @@
 #include <mutex>
 #include <optional>
 #include <thread>
-#include <vector>
 
 #include "renderer/render.h"
 #include "server/system/clock.h"
@@ -27,8 +26,6 @@ class RenderThread {
   /// Returns once the renderer has drawn a small test frame with a shadow in it, or why it could not.
   static Result<std::unique_ptr<RenderThread>> start(const RendererOptions& options);
   ~RenderThread();
-  RenderThread(const RenderThread&) = delete;
-  RenderThread& operator=(const RenderThread&) = delete;
 
   const RendererInfo& info() const { return info_; }
 

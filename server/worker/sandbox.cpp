@@ -141,12 +141,12 @@ Problem refused(int error) {
           std::error_code(error, std::generic_category()).message()};
 }
 
-/// 0, or an error number.
 /// libseccomp's own macros are C's.
 scmp_arg_cmp where(unsigned argument, scmp_compare compare, scmp_datum_t a, scmp_datum_t b = 0) {
   return {argument, compare, a, b};
 }
 
+/// 0, or an error number.
 int allow(scmp_filter_ctx filter, Seal kind) {
   int error = 0;
   const auto add = [&](auto... rule) {

@@ -1,12 +1,9 @@
 #include "server/worker/scene_loader.h"
 
-#include <functional>
 #include <limits>
 #include <malloc.h>
 #include <numeric>
 
-#include "renderer/core/stop.h"
-#include "server/system/memory_file.h"
 #include "server/wire/bundle.h"
 
 namespace gnomon {

@@ -11,9 +11,8 @@
 #include <unistd.h>
 
 #include "renderer/core/parallel.h"
-#include "server/system/heaps.h"
 #include "server/system/log.h"
-#include "server/system/memory_file.h"
+#include "server/system/memory_limit.h"
 #include "server/system/no_thread.h"
 #include "server/wire/channel.h"
 #include "server/wire/messages.h"

@@ -1,7 +1,7 @@
 // The head of a request, up to its empty line, and who it says has sent it through a proxy, in which trace: nothing in
 // it that two servers could read in two ways, and written again it says the same.
 #include "server/http/client_address.h"
-#include "server/http/trace_context.h"
+#include "server/http/request_log.h"
 #include "tests/fuzz/sound_problems.h"
 
 namespace {

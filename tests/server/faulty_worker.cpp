@@ -7,7 +7,7 @@
 #include <unistd.h>
 #include <vector>
 
-#include "server/system/memory_file.h"
+#include "server/system/file_descriptor.h"
 #include "server/wire/channel.h"
 #include "server/wire/messages.h"
 #include "server/worker/worker.h"

@@ -10,7 +10,7 @@
 
 #include "protocol/access/signed_target.h"
 #include "protocol/base/bytes.h"
-#include "server/access/key_usage.h"
+#include "server/access/key_ring.h"
 #include "tests/server/http/asked.h"
 
 namespace gnomon {

@@ -9,7 +9,7 @@
 #include <sys/wait.h>
 #include <thread>
 
-#include "server/system/memory_file.h"
+#include "server/system/file_descriptor.h"
 #include "tests/server/dispatch/dispatcher_fixture.h"
 
 namespace gnomon {

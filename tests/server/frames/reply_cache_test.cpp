@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 #include <set>
 
-#include "server/frames/frame_tag.h"
-
 namespace gnomon {
 namespace {
 

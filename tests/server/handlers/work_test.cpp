@@ -5,7 +5,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "server/system/memory_file.h"
+#include "server/system/file_descriptor.h"
 
 namespace gnomon {
 namespace {

@@ -1,12 +1,11 @@
-#include "server/http/event_stream.h"
-
 #include <atomic>
 #include <gtest/gtest.h>
 #include <string>
 #include <thread>
 
 #include "protocol/base/bytes.h"
-#include "server/http/zip_stream.h"
+#include "server/handlers/event_reply.h"
+#include "server/handlers/sequence_forms.h"
 
 namespace gnomon {
 namespace {

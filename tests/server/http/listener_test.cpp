@@ -1,5 +1,3 @@
-#include "server/http/listener.h"
-
 #include <arpa/inet.h>
 #include <atomic>
 #include <cerrno>
@@ -13,6 +11,8 @@
 #include <thread>
 
 #include "server/http/worker_pool.h"
+
+#include "server/http/http_server.h"
 
 namespace gnomon {
 namespace {

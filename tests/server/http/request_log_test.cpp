@@ -6,8 +6,6 @@
 #include <regex>
 #include <set>
 
-#include "server/http/trace_context.h"
-
 namespace gnomon {
 namespace {
 

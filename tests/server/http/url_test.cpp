@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "server/http/query.h"
 #include "server/http/router.h"
 
 namespace gnomon {

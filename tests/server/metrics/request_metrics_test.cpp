@@ -5,9 +5,7 @@
 #include <set>
 #include <unistd.h>
 
-#include "server/metrics/labels.h"
 #include "server/metrics/readings.h"
-
 namespace gnomon::metrics {
 namespace {
 

@@ -1,10 +1,8 @@
-#include "server/process/memory_plan.h"
-
 #include <gtest/gtest.h>
 #include <string>
 
 #include "server/process/admin_address.h"
-#include "server/process/descriptor_plan.h"
+#include "server/process/resource_plan.h"
 
 namespace gnomon {
 namespace {

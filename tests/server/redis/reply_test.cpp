@@ -6,7 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "server/redis/address.h"
-#include "server/redis/backoff.h"
+#include "server/redis/redis.h"
 
 namespace gnomon::redis {
 namespace {

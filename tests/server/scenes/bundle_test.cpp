@@ -7,9 +7,9 @@
 
 #include "protocol/base/scene_id.h"
 #include "server/bakes/bake_registry.h"
-#include "server/scenes/light_map_directory.h"
+#include "server/scenes/stored_light_maps.h"
 #include "server/scenes/upload.h"
-#include "server/system/memory_file.h"
+#include "server/system/file_descriptor.h"
 
 namespace gnomon {
 namespace {

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-#include "server/scenes/redis_light_maps.h"
+#include "server/scenes/stored_light_maps.h"
 #include "server/scenes/upload.h"
-#include "server/system/memory_file.h"
+#include "server/system/file_descriptor.h"
 #include "tests/support/redis_server.h"
 
 namespace gnomon {

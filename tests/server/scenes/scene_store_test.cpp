@@ -8,7 +8,7 @@
 
 #include "protocol/json/json_codec.h"
 #include "server/scenes/upload.h"
-#include "server/system/memory_file.h"
+#include "server/system/file_descriptor.h"
 #include "tests/support/files.h"
 
 namespace gnomon {

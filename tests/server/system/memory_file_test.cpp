@@ -1,5 +1,3 @@
-#include "server/system/memory_file.h"
-
 #include <csignal>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -9,6 +7,7 @@
 #include <thread>
 #include <unistd.h>
 
+#include "server/system/file_descriptor.h"
 #include "server/system/log.h"
 #include "server/system/memory_limit.h"
 #include "tests/server/system/pipe.h"

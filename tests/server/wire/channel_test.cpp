@@ -5,7 +5,7 @@
 #include <sys/socket.h>
 #include <thread>
 
-#include "server/system/memory_file.h"
+#include "server/system/file_descriptor.h"
 #include "server/wire/messages.h"
 
 namespace gnomon {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "server/worker/quality_choices.h"
+#include "server/worker/orders.h"
 
 namespace gnomon {
 namespace {

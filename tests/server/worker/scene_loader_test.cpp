@@ -8,9 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include "server/system/memory_file.h"
+#include "server/system/file_descriptor.h"
 #include "server/wire/bundle.h"
-#include "server/worker/single_flight.h"
 #include "tests/support/glb_builder.h"
 
 namespace gnomon {

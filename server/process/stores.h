@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <thread>
 
+#include "server/dispatch/dispatcher.h"
 #include "server/jobs/job_queue.h"
 #include "server/process/serve.h"
 #include "server/redis/redis.h"
@@ -26,5 +28,25 @@ Result<OpenedStore> openStore(const ServeOptions& options, std::size_t scenesInM
 /// Opens the queue of jobs: that of --jobs, else in the store's Redis, where it is one, else of this process.
 Result<std::unique_ptr<JobQueue>> openJobs(const ServeOptions& options, const JobLimits& limits,
                                            std::shared_ptr<redis::Redis> redis);
+
+/// How often a store is kept clean.
+struct KeepingPeriod {
+  std::chrono::seconds age{};                                  ///< that of the store's options; 0 = scenes do not age
+  std::chrono::milliseconds longest = std::chrono::minutes(1); ///< between two times
+};
+
+/// Keeps a store clean for as long as it exists: ever so often removes what is too old, and what servers that died have
+/// left. Workers forget what is removed, by this server or another.
+class StoreKeeping {
+ public:
+  /// Store and workers outlive it.
+  StoreKeeping(SceneStore& store, Dispatcher& workers, const KeepingPeriod& period);
+  ~StoreKeeping();
+
+ private:
+  SceneStore& store_;
+  StopSignal stop_;
+  std::thread thread_;
+};
 
 } // namespace gnomon

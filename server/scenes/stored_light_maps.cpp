@@ -1,15 +1,17 @@
-#include "server/scenes/light_map_directory.h"
+#include "server/scenes/stored_light_maps.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
 #include <filesystem>
+#include <sys/stat.h>
 #include <system_error>
 #include <vector>
 
+#include "server/scenes/redis_parts.h"
+#include "server/scenes/redis_scripts.h"
 #include "server/scenes/whole_file.h"
 #include "server/system/log.h"
-#include "server/system/memory_file.h"
 
 namespace gnomon {
 namespace {
@@ -22,6 +24,13 @@ std::vector<std::filesystem::directory_entry> mapsIn(const std::string& path) {
     if (entry->path().extension() == ".map") maps.push_back(*entry);
   }
   return maps;
+}
+
+constexpr std::chrono::seconds kForMap{8}; ///< a worker waits little longer, and then bakes it
+
+redis::Call mapCall() {
+  constexpr std::chrono::seconds kPatience{2};
+  return {Clock::now() + kPatience};
 }
 
 } // namespace
@@ -85,6 +94,37 @@ void LightMapDirectory::drop() {
     std::error_code ignored;
     if (bytes > budgetBytes_) std::filesystem::remove(kept.path, ignored);
   }
+}
+
+FileDescriptor RedisLightMaps::open(const std::string& key) {
+  if (!isLightMapKey(key)) return {};
+  redis::Command fields{"HMGET", lightMapKey(key)};
+  fields.insert(fields.end(), kPartsFields.begin(), kPartsFields.end());
+  const auto reply = redis_->ask(fields, mapCall());
+  const auto parts = reply ? partsFrom(*reply) : std::nullopt;
+  if (!parts || parts->bytes > budgetBytes_) return {};
+  auto read = readParts(*redis_, *parts, kForMap);
+  if (!read || !read->file) return {};
+  (void)redis_->run(redis_scripts::kUseMap, {}, {key}, mapCall());
+  return *std::move(read->file);
+}
+
+void RedisLightMaps::write(const std::string& key, const FileDescriptor& lightMap) {
+  struct stat status {};
+  if (!isLightMapKey(key) || ::fstat(lightMap.get(), &status) != 0 || status.st_size <= 0) return;
+  const RedisParts parts = newParts(static_cast<std::uint64_t>(status.st_size));
+  if (parts.bytes > budgetBytes_) return;
+  const std::string count = std::to_string(parts.count());
+  if (writeParts(*redis_, parts, lightMap, kForMap)) {
+    (void)redis_->run(redis_scripts::kCommitMap, {lightMapKey(key)},
+                      {key, parts.token, std::to_string(parts.bytes), count, std::to_string(budgetBytes_)}, mapCall());
+  } else {
+    (void)redis_->run(redis_scripts::kAbandon, {kWritingKey}, {"", parts.token, count}, mapCall());
+  }
+}
+
+void RedisLightMaps::removeScene(const std::string& sceneId) {
+  (void)redis_->run(redis_scripts::kRemoveMaps, {}, {sceneId}, mapCall());
 }
 
 } // namespace gnomon

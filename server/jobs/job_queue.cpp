@@ -1,11 +1,8 @@
-#include "server/jobs/job_problems.h"
+#include "server/jobs/job_queue.h"
 
-#include <array>
-#include <cstdint>
 #include <stdexcept>
 #include <sys/random.h>
 
-#include "protocol/base/bytes.h"
 #include "protocol/base/text.h"
 
 namespace gnomon {

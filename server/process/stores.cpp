@@ -1,9 +1,11 @@
-#include "server/process/store_opening.h"
+#include "server/process/stores.h"
+
+#include <algorithm>
+#include <exception>
 
 #include "server/jobs/local_jobs.h"
 #include "server/jobs/redis_jobs.h"
-#include "server/scenes/light_map_directory.h"
-#include "server/scenes/redis_light_maps.h"
+#include "server/system/log.h"
 
 namespace gnomon {
 namespace {
@@ -44,6 +46,21 @@ Result<redis::Address> addressOf(const ServeOptions& options, const std::string&
   }
   address->authorities = options.redisAuthorities;
   return address;
+}
+
+/// A scene is removed when it is older than its age by less than a quarter, or than the longest period.
+std::chrono::milliseconds lengthOf(const KeepingPeriod& period) {
+  constexpr std::chrono::milliseconds kShortest{500};
+  if (period.age.count() == 0) return period.longest;
+  return std::clamp(std::chrono::milliseconds(period.age) / 4, kShortest, period.longest);
+}
+
+void keepClean(SceneStore& store, Dispatcher& workers) {
+  try {
+    store.keepClean([&](const std::string& id) { workers.forget(id); });
+  } catch (const std::exception& error) {
+    logEvent("store", error.what()); // out of memory: next time
+  }
 }
 
 } // namespace
@@ -90,6 +107,21 @@ Result<std::unique_ptr<JobQueue>> openJobs(const ServeOptions& options, const Jo
     queue = std::make_unique<LocalJobs>(limits, options.store);
   }
   return queue;
+}
+
+StoreKeeping::StoreKeeping(SceneStore& store, Dispatcher& workers, const KeepingPeriod& period)
+    : store_(store), thread_([this, &store, &workers, length = lengthOf(period)] {
+        do {
+          keepClean(store, workers);
+        } while (!stop_.waitFor(length));
+      }) {
+  store.onRemoved([&workers](const std::string& id) { workers.forget(id); });
+}
+
+StoreKeeping::~StoreKeeping() {
+  store_.onRemoved(nullptr);
+  stop_.raise();
+  thread_.join();
 }
 
 } // namespace gnomon
