@@ -4,7 +4,7 @@
 #include "protocol/base/bytes.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/spec/enum_rows.h"
-#include "protocol/spec/format_traits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/image/image_codec.h"
 #include "renderer/image/picture_encode.h"
 #include "renderer/render.h"

@@ -8,7 +8,6 @@
 #include "protocol/base/result.h"
 #include "protocol/base/scene_bundle.h"
 #include "protocol/report/frame_report.h"
-#include "protocol/report/node_list.h"
 #include "protocol/report/replies.h"
 #include "protocol/spec/frame_spec.h"
 #include "protocol/spec/limits.h"

@@ -149,7 +149,7 @@ def first_column(tree, page, heading):
 def spellings(tree, enum):
     text = (tree.root / "protocol/spec/enum_rows.h").read_text(encoding="utf-8")
     part = re.search(rf"kSpellings<{enum}>\{{(.*?)\n\}};", text, re.DOTALL)
-    return re.findall(rf"{enum}::\w+,\s*\"(\w+)\"", part[1]) if part else []
+    return re.findall(rf"spelling<{enum}::(\w+?)_?>", part[1]) if part else []
 
 
 def texts(tree, pattern):
@@ -201,7 +201,7 @@ def table_faults(tree):
     yield from compare("server/metrics/request_metrics.h", "stage", re.findall(r"\w+", labels), names)
     says = re.sub(r"\s*///\s*", " ", found(r"Names and order: (.*?)\.", read("protocol/report/frame_report.h")))
     yield from compare("protocol/report/frame_report.h", "stage", says.split(), names)
-    says = found(r"&FrameReport::stages,(.*?)\}", read("protocol/report/report_rows.h"))
+    says = found(r"&FrameReport::stages>(.*?)\{", read("protocol/report/report_rows.h"))
     yield from compare("protocol/report/report_rows.h", "stage", re.findall(r"\w+", says), names, extra_allowed=True)
 
     shaders = {Path(path).name for path in tree.paths if re.search(r"^renderer/shaders/\w+\.(vert|frag)$", path)}
@@ -219,7 +219,7 @@ def table_faults(tree):
     yield from compare("clients/USING.md", "command", listed, commands)
 
     fields = {name for text in texts(tree, "protocol/spec/*_rows.h")
-              for name in re.findall(r"field\(\s*\"(\w+)\"", text)}
+              for name in re.findall(r"field<&\w+::(\w+)>", text)}
     listed = {part for path in re.findall(r"^\| `([^`]+)` ", read("protocol/FIELDS.md"), re.MULTILINE)
               for part in path.replace("[]", "").split(".")}
     yield from compare("protocol/FIELDS.md", "field", listed, fields)

@@ -23,12 +23,12 @@ SOUND = {
     "protocol/FIELDS.md": "| field | type |\n|---|---|\n| `width` | number |\n| `lights[].color` | 3 numbers |\n",
     "server/metrics/request_metrics.h": 'kStages{"plan", "encode"};\n',
     "protocol/report/frame_report.h": "/// One stage's time. Names and order: plan\n/// encode. More.\n",
-    "protocol/report/report_rows.h": 'field("stages", &FrameReport::stages, {.says = "plan, "\n "encode."}),\n',
-    "protocol/spec/enum_rows.h": 'kSpellings<View>{\n  spelling(View::color, "color", "x"),\n'
-                                 '  spelling(\n    View::depth, "depth", "x"),\n};\n'
-                                 'kSpellings<ShadowTechnique>{\n  spelling(ShadowTechnique::maps, "maps", "x"),\n};\n',
-    "protocol/spec/field_rows.h": 'field("width", &A::width)\nfield(\n  "lights", &A::lights)\n'
-                                  'field("color", &B::color)\n',
+    "protocol/report/report_rows.h": 'field<&FrameReport::stages>("plan, "\n "encode.", {}),\n',
+    "protocol/spec/enum_rows.h": 'kSpellings<View>{\n  spelling<View::color>("x"),\n'
+                                 '  spelling<View::depth>(\n    "x"),\n};\n'
+                                 'kSpellings<ShadowTechnique>{\n  spelling<ShadowTechnique::maps>("x"),\n};\n',
+    "protocol/spec/field_rows.h": 'field<&A::width>("x")\nfield<&A::lights>(\n  "x")\n'
+                                  'field<&B::color>("x")\n',
     "renderer/SHADOWS.md": "## Techniques\n\n| technique | is |\n|---|---|\n| `maps` | a map |\n",
     "renderer/render.cpp": 'drawing.endStage("plan");\n',
     "renderer/shaders/README.md": "| shader | draws |\n|---|---|\n| `view.frag` | a view |\n",

@@ -79,8 +79,8 @@ class Checklists(unittest.TestCase):
         self.assert_fine(rows)
         # 1. Its name, what it shows, and its row.
         self.edit("protocol/spec/output_options.h", r"\n  edgeDistance", ",\n  scratch")
-        self.assert_refused(rows, "spellsAll<View>")
-        self.edit("protocol/spec/enum_rows.h", r"spelling\(View::edgeDistance,.*?\),\n", '    spelling(View::scratch, "scratch", "nothing"),\n')
+        self.assert_refused(rows, "spellsAll")
+        self.edit("protocol/spec/enum_rows.h", r"spelling<View::edgeDistance>\(.*?\),\n", '    spelling<View::scratch>("nothing"),\n')
         self.assert_refused(rows, "rowsAreComplete")
         self.edit("protocol/spec/traits.h", r"ViewTraits\{View::edgeDistance,[^\n]*\n",
                   "    ViewTraits{View::scratch, ViewSource::data, false, false, false, false, false, false, false, channels::kValue, channels::kValue},\n")
@@ -110,13 +110,13 @@ class Checklists(unittest.TestCase):
 
     def test_a_filter(self):
         self.assertEqual(self.steps_of("To add a shadow filter"), ["1", "2", "3"])
-        rows = '#include "protocol/spec/enum_rows.h"\n'
+        rows = '#include "protocol/spec/enum_rows.h"\nconst auto word = gnomon::spell(gnomon::FilterType::hard);\n'
         kernel = '#include "renderer/shadow/filter_kernel.cpp"\n'
         self.assert_fine(kernel)
         # 1. Its name and what it does.
         self.edit("protocol/spec/shadow_options.h", r"enum class FilterType \{ hard, pcf, vsm, evsm, msm", ", scratch")
-        self.assert_refused(rows, "spellsAll<FilterType>")
-        self.edit("protocol/spec/enum_rows.h", r"spelling\(FilterType::msm,.*?\),\n", '    spelling(FilterType::scratch, "scratch", "nothing"),\n')
+        self.assert_refused(rows, "spellsAll")
+        self.edit("protocol/spec/enum_rows.h", r"spelling<FilterType::msm>\(.*?\),\n", '    spelling<FilterType::scratch>("nothing"),\n')
         self.assert_fine(rows)
         # 2. Its row, which is all that any stage knows of it.
         self.assert_refused(kernel, "rowsAreComplete")
@@ -131,9 +131,9 @@ class Checklists(unittest.TestCase):
         rows = '#include "protocol/spec/traits.h"\n'
         # 1. Its name, what it is, and its row.
         self.edit("protocol/spec/shadow_options.h", r"enum class ShadowTechnique \{ auto_, shadowMap, shadowVolume, rayTraced", ", scratch")
-        self.assert_refused(rows, "spellsAll<ShadowTechnique>")
-        self.edit("protocol/spec/enum_rows.h", r"spelling\(ShadowTechnique::rayTraced,.*?\),\n",
-                  '    spelling(ShadowTechnique::scratch, "scratch", "nothing"),\n')
+        self.assert_refused(rows, "spellsAll")
+        self.edit("protocol/spec/enum_rows.h", r"spelling<ShadowTechnique::rayTraced>\(.*?\),\n",
+                  '    spelling<ShadowTechnique::scratch>("nothing"),\n')
         self.assert_refused(rows, "rowsAreComplete")
         self.edit("protocol/spec/traits.h", r"TechniqueTraits\{ShadowTechnique::rayTraced,[^\n]*\n",
                   "    TechniqueTraits{ShadowTechnique::scratch, true, true, false, false, true, false},\n")

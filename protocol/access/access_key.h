@@ -1,13 +1,15 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "protocol/base/result.h"
 
-/// Who may do what: the keys that an operator gives to clients.
+/// Who may do what: the keys that an operator gives to clients, and the addresses that are signed with them.
 namespace gnomon {
 
 /// What a request asks for, and what a key allows: flags that are put together with `|`.
@@ -49,5 +51,27 @@ struct AccessKey {
 /// burst (default: a second's worth, at least 1), concurrent. All problems at once, each with its line; none of them
 /// quotes a value that may be a secret. A file without a key is one, too.
 Result<std::vector<AccessKey>> parseKeyFile(std::string_view text);
+
+/// The query keys that signing adds, in this order, at the end.
+inline constexpr std::string_view kExpiresKey = "expires";
+inline constexpr std::string_view kNameKey = "key";
+inline constexpr std::string_view kSignatureKey = "signature";
+
+/// A request target that claims to be signed. Nothing of it is proved.
+struct SignedTarget {
+  std::string text;      ///< what is signed: the target up to the signature, escapes as they were sent
+  std::int64_t expires;  ///< seconds since 1970 in UTC, from which on it is no longer valid
+  std::string key;       ///< the name of the key that signed it
+  std::string signature; ///< HMAC-SHA256 of `text` under a signing secret of the key, 64 hexadecimal digits
+};
+
+/// "/path?query" with "&expires=…&key=…&signature=…" behind it. REQUIRES: a path, no fragment.
+std::string signedTarget(std::string_view target, std::int64_t expires, std::string_view key, std::string_view secret);
+
+/// Takes the end of a target apart; nothing where it is not as signedTarget() makes it.
+std::optional<SignedTarget> readSignedTarget(std::string_view target);
+
+/// Whether the signature is that of this secret. Takes as long for every signature.
+bool isSignedBy(const SignedTarget& target, std::string_view secret);
 
 } // namespace gnomon

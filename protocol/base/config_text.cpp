@@ -52,8 +52,7 @@ class ConfigReader {
   }
 
   bool fail(std::string detail) {
-    problems_.push_back(
-        {ProblemCode::invalidValue, std::string(file_) + ":" + std::to_string(line_), std::move(detail), "", ""});
+    problems_.push_back(invalidValue(std::string(file_) + ":" + std::to_string(line_), std::move(detail)));
     return false;
   }
 
@@ -170,7 +169,7 @@ class ConfigReader {
 
 Result<std::vector<ConfigSection>> parseSections(std::string_view text, std::string_view file) {
   if (!isUtf8(text) || text.find('\0') != std::string_view::npos) {
-    return Problem{ProblemCode::invalidValue, std::string(file), "This is no text in UTF-8.", "", ""};
+    return invalidValue(std::string(file), "This is no text in UTF-8.");
   }
   return ConfigReader(text, file).read();
 }
@@ -181,8 +180,8 @@ Result<std::vector<ConfigEntry>> parseConfig(std::string_view text, std::string_
   if (sections->size() == 1) return std::move(sections->front().entries);
   Problems problems;
   for (const ConfigSection& section : std::span(*sections).subspan(1)) {
-    problems.push_back({ProblemCode::invalidValue, std::string(file) + ":" + std::to_string(section.line),
-                        "There are no sections here: every line is KEY = VALUE.", "", ""});
+    problems.push_back(invalidValue(std::string(file) + ":" + std::to_string(section.line),
+                                    "There are no sections here: every line is KEY = VALUE."));
   }
   return problems;
 }

@@ -42,6 +42,10 @@ struct Problem {
   std::string actual{};  ///< what came, shortened; empty = not about a value
 };
 
+inline Problem invalidValue(std::string pointer, std::string detail, std::string limit = {}, std::string actual = {}) {
+  return {ProblemCode::invalidValue, std::move(pointer), std::move(detail), std::move(limit), std::move(actual)};
+}
+
 using Problems = std::vector<Problem>;
 
 /// Collects what is wrong with an input, up to a bound, so that a hostile one can't grow the reply without end.
@@ -63,10 +67,8 @@ class ProblemList {
   /// Everything collected, and how many more there were.
   Problems take() && {
     if (leftOut_ > 0) {
-      problems_.push_back({.code = ProblemCode::invalidValue,
-                           .detail = "There are more problems than are listed here.",
-                           .limit = std::to_string(kMax),
-                           .actual = std::to_string(kMax + leftOut_)});
+      problems_.push_back(invalidValue("", "There are more problems than are listed here.", std::to_string(kMax),
+                                       std::to_string(kMax + leftOut_)));
     }
     return std::move(problems_);
   }

@@ -1,9 +1,9 @@
-#include "protocol/cost/shadow_cost.h"
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "protocol/base/text.h"
+#include "protocol/cost/frame_cost.h"
 #include "protocol/spec/frame_lights.h"
 
 namespace gnomon {
@@ -53,17 +53,8 @@ double tileSide(const Light& light, const FrameSpec& spec) {
   return askedTileSize(*shadow.size, shadow.importance, spec.atlas.baseSize, std::max(spec.width, spec.height));
 }
 
-double mapFactor(DeviceKind device) {
-  switch (device) {
-    case DeviceKind::processor:
-      return 1;
-    case DeviceKind::softwareGl:
-      return kSlowerMaps;
-    case DeviceKind::gpu:
-      return kFasterMaps;
-  }
-  return 1;
-}
+/// By DeviceKind.
+constexpr std::array kMapFactors{1.0, kSlowerMaps, kFasterMaps};
 
 std::string ratioText(double ratio) {
   return shortNumber(std::round(ratio * 100) / 100);
@@ -109,7 +100,7 @@ TechniqueChoice chooseTechnique(const Light& light, const FrameSpec& spec, const
   constexpr double kMillisecond = 1e6;
   const double lookups =
       pixelsOf(spec) * lookupOfPixel(light.shadow->filter) * (samplesOf(spec.antialiasing) > 1 ? kSampledLookups : 1.0);
-  const double map = mapFactor(device) * (tileCost(light, spec, scene.triangles) + lookups);
+  const double map = kMapFactors[static_cast<std::size_t>(device)] * (tileCost(light, spec, scene.triangles) + lookups);
   const double rays = rayCost(light, spec, scene);
   TechniqueChoice choice{ShadowTechnique::rayTraced, {}, map / kMillisecond, rays / kMillisecond};
   const double ratio = rays / map;

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "protocol/report/error_metrics.h"
+#include "protocol/base/result.h"
+#include "protocol/json/json_codec.h"
 #include "protocol/report/frame_report.h"
 #include "protocol/report/replies.h"
 #include "protocol/spec/frame_spec.h"
@@ -66,7 +69,6 @@ struct VariantProblem {
   std::optional<std::string> actual{};
 };
 
-/// One variant: its speed and its error, or why there are none.
 struct EvaluationRow {
   SpecPatch variant{};
   std::string name{};
@@ -98,5 +100,42 @@ struct EvaluationStep {
   int of = 0;
   int variant = 0;
 };
+
+/// An EvaluationRequest from untrusted JSON, as strictly as decodeFrameSpec. Each variant is laid over the spec as it
+/// was written, and must give a good spec; its problems point into /variants/i, those of a sweep's at /sweep.
+Result<Evaluation> decodeEvaluation(std::string_view json);
+
+/// The report that a server wrote as JSON; what it says beyond our rows is passed over. Nothing = it is no report.
+std::optional<EvaluationReport> readEvaluationReport(std::string_view json);
+
+/// The same problems, seen from the document that `place` is in.
+Problems within(Problems problems, const std::string& place);
+
+/// Adds a problem for each null of a patch that takes away what no spec has: it leaves nothing behind that the decoder
+/// could find fault with.
+void checkRemovals(const Json& patch, ProblemList& problems);
+
+/// Adds the rules across fields that the request's spec breaks, but for what its known problems explain.
+void checkSpecRules(const FrameSpec& spec, ProblemList& problems);
+
+/// The request's spec as it was written; {} where it is no object.
+Json writtenSpec(const Json& request);
+
+/// Adds the problems of a patched spec, which came from `place`, but for those that the request's own spec has among
+/// `known`.
+void addPatchProblems(const Problems& found, const Problems& known, const std::string& place, ProblemList& problems);
+
+/// A variant of a sweep.
+struct SweepVariant {
+  std::string name; ///< "pcf 5", "hard 4 x Large"
+  Json patch;       ///< over the spec
+};
+
+/// The variants of a sweep over a spec in JSON (an object), each once. What they set goes for lights with a shadow of
+/// their own as well, and takes away what would contradict it (a filter's radius, manual splits).
+std::vector<SweepVariant> sweepVariants(Sweep sweep, const Json& spec);
+
+/// A name for a variant from what it changes: "filter.type hard, cascadeCount 2". A patch of nothing is "as given".
+std::string variantName(const Json& patch);
 
 } // namespace gnomon

@@ -1,9 +1,8 @@
-#include "protocol/evaluation/sweeps.h"
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/text.h"
+#include "protocol/evaluation/evaluation.h"
 #include "protocol/spec/traits.h"
 
 namespace gnomon {

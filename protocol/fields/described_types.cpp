@@ -2,7 +2,6 @@
 #include "protocol/evaluation/evaluation_rows.h"
 #include "protocol/fields/type_tables.h"
 #include "protocol/job/job_rows.h"
-#include "protocol/report/node_rows.h"
 #include "protocol/report/reply_rows.h"
 #include "protocol/sequence/sequence_rows.h"
 

@@ -10,11 +10,7 @@ namespace gnomon {
 namespace {
 
 bool add(ProblemList& problems, const Place& place, std::string detail, std::string limit, std::string actual) {
-  problems.add({.code = ProblemCode::invalidValue,
-                .pointer = place.pointer(),
-                .detail = std::move(detail),
-                .limit = std::move(limit),
-                .actual = std::move(actual)});
+  problems.add(invalidValue(place.pointer(), std::move(detail), std::move(limit), std::move(actual)));
   return false;
 }
 
@@ -110,9 +106,7 @@ bool checkDistinct(const ValueType& type, const void* list, const Notes& notes, 
     bool isFirst = true;
     for (std::size_t j = 0; j < i && isFirst; ++j) isFirst = !type.equal(type.at(list, j), type.at(list, i));
     if (isFirst) continue;
-    problems.add({.code = ProblemCode::invalidValue,
-                  .pointer = Place(place, i).pointer(),
-                  .detail = "This value appears more than once in its list."});
+    problems.add(invalidValue(Place(place, i).pointer(), "This value appears more than once in its list."));
     good = false;
   }
   return good;

@@ -1,11 +1,11 @@
-#include "protocol/fields/field_decode.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
-#include "protocol/base/nearest_name.h"
+#include "protocol/base/text.h"
 #include "protocol/fields/field_checks.h"
+#include "protocol/fields/field_codec.h"
 
 namespace gnomon {
 namespace {
@@ -26,18 +26,12 @@ void addUnknownKey(std::string_view key, const std::vector<std::string_view>& kn
     names += name;
   }
   const std::vector<std::string> words(known.begin(), known.end());
-  problems.add({.code = ProblemCode::invalidValue,
-                .pointer = place.pointer(),
-                .detail = "There is no field of this name" + suggestion(key, words),
-                .limit = names});
+  problems.add(invalidValue(place.pointer(), "There is no field of this name" + suggestion(key, words), names));
 }
 
 bool decode(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems, bool& out) {
   const auto* value = std::get_if<bool>(&node.value);
-  if (!value) {
-    addWrongType(node, "true or false", place, problems);
-    return false;
-  }
+  if (!value) return addWrongType(node, "true or false", place, problems);
   if (!checkSwitch(*value, notes, place, problems)) return false;
   out = *value;
   return true;
@@ -45,27 +39,18 @@ bool decode(const JsonNode& node, const Notes& notes, const Place& place, Proble
 
 bool decode(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems, int& out) {
   const std::optional<double> value = numberOf(node);
-  if (!value || *value != std::trunc(*value)) {
-    addWrongType(node, "a whole number", place, problems);
-    return false;
-  }
+  if (!value || *value != std::trunc(*value)) return addWrongType(node, "a whole number", place, problems);
   if (!checkNumber(*value, notes, place, problems)) return false;
   constexpr double kMost =
       std::numeric_limits<int>::max(); // rows of requests have narrower ranges; those of replies none
-  if (std::abs(*value) > kMost) {
-    addWrongType(node, "a whole number of 32 bits", place, problems);
-    return false;
-  }
+  if (std::abs(*value) > kMost) return addWrongType(node, "a whole number of 32 bits", place, problems);
   out = static_cast<int>(*value);
   return true;
 }
 
 bool decode(const JsonNode& node, const Place& place, ProblemList& problems, std::uint64_t& out) {
   const auto* value = std::get_if<std::uint64_t>(&node.value);
-  if (!value) {
-    addWrongType(node, "a whole number of at least 0", place, problems);
-    return false;
-  }
+  if (!value) return addWrongType(node, "a whole number of at least 0", place, problems);
   out = *value;
   return true;
 }
@@ -74,20 +59,14 @@ bool decode(const JsonNode& node, const Place& place, ProblemList& problems, std
   const auto* positive = std::get_if<std::uint64_t>(&node.value);
   const auto* negative = std::get_if<std::int64_t>(&node.value);
   const bool fits = negative || (positive && *positive <= std::uint64_t{std::numeric_limits<std::int64_t>::max()});
-  if (!fits) {
-    addWrongType(node, "a whole number of 64 bits", place, problems);
-    return false;
-  }
+  if (!fits) return addWrongType(node, "a whole number of 64 bits", place, problems);
   out = negative ? *negative : static_cast<std::int64_t>(*positive);
   return true;
 }
 
 bool decode(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems, double& out) {
   const std::optional<double> value = numberOf(node);
-  if (!value) {
-    addWrongType(node, "a number", place, problems);
-    return false;
-  }
+  if (!value) return addWrongType(node, "a number", place, problems);
   if (!checkNumber(*value, notes, place, problems)) return false;
   out = *value;
   return true;
@@ -95,10 +74,7 @@ bool decode(const JsonNode& node, const Notes& notes, const Place& place, Proble
 
 bool decode(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems, std::string& out) {
   const auto* text = std::get_if<std::string>(&node.value);
-  if (!text) {
-    addWrongType(node, "a string", place, problems);
-    return false;
-  }
+  if (!text) return addWrongType(node, "a string", place, problems);
   if (!checkText(*text, notes, place, problems)) return false;
   out = *text;
   return true;
@@ -113,8 +89,7 @@ bool decode(const JsonNode& node, const Notes& notes, const Place& place, Proble
   };
   if (std::holds_alternative<std::string>(node.value)) return take(std::string());
   if (numberOf(node)) return take(0);
-  addWrongType(node, "a whole number or a string", place, problems);
-  return false;
+  return addWrongType(node, "a whole number or a string", place, problems);
 }
 
 /// Why a word is none of a type's.
@@ -143,11 +118,7 @@ bool decodeWord(const JsonNode& node, const Place& place, ProblemList& problems,
   if (!text) {
     addWrongType(node, names, place, problems);
   } else {
-    problems.add({.code = ProblemCode::invalidValue,
-                  .pointer = place.pointer(),
-                  .detail = notAWord(*text, type),
-                  .limit = names,
-                  .actual = shownNode(node)});
+    problems.add(invalidValue(place.pointer(), notAWord(*text, type), names, shownNode(node)));
   }
   return false;
 }
@@ -169,10 +140,8 @@ bool decodeElements(const JsonNode::Array& array, const Notes& notes, const Plac
 bool decodeArray(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems,
                  const ValueType& type, void* out) {
   const auto* array = std::get_if<JsonNode::Array>(&node.value);
-  if (!array || array->size() != type.arraySize) {
-    addWrongType(node, "an array of " + std::to_string(type.arraySize) + " numbers", place, problems);
-    return false;
-  }
+  if (!array || array->size() != type.arraySize)
+    return addWrongType(node, "an array of " + std::to_string(type.arraySize) + " numbers", place, problems);
   return type.make(out, array->size(),
                    [&](void* container) { return decodeElements(*array, notes, place, problems, type, container); });
 }
@@ -180,10 +149,7 @@ bool decodeArray(const JsonNode& node, const Notes& notes, const Place& place, P
 bool decodeList(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems,
                 const ValueType& type, void* out) {
   const auto* array = std::get_if<JsonNode::Array>(&node.value);
-  if (!array) {
-    addWrongType(node, "an array", place, problems);
-    return false;
-  }
+  if (!array) return addWrongType(node, "an array", place, problems);
   if (!checkCount(array->size(), notes, place, problems)) return false;
   return type.make(out, array->size(), [&](void* list) {
     return decodeElements(*array, notes, place, problems, type, list) &&
@@ -215,10 +181,7 @@ bool decodeMember(std::string_view key, const JsonNode& node, const Place& place
 
 bool decodeObject(const JsonNode& node, const Place& place, ProblemList& problems, const StructType& type, void* out) {
   const auto* object = std::get_if<JsonNode::Object>(&node.value);
-  if (!object) {
-    addWrongType(node, "an object", place, problems);
-    return false;
-  }
+  if (!object) return addWrongType(node, "an object", place, problems);
   for (const JsonMember& member : *object) {
     const Place inner(place, member.key);
     if (decodeMember(member.key, member.value, inner, problems, type, out)) continue;
@@ -231,14 +194,13 @@ bool decodeObject(const JsonNode& node, const Place& place, ProblemList& problem
 
 } // namespace
 
-void addWrongType(const JsonNode& node, std::string_view expected, const Place& place, ProblemList& problems) {
+bool addWrongType(const JsonNode& node, std::string_view expected, const Place& place, ProblemList& problems) {
   const bool isNull = std::holds_alternative<std::nullptr_t>(node.value);
-  problems.add({.code = ProblemCode::invalidValue,
-                .pointer = place.pointer(),
-                .detail = isNull ? "null is no value here; to leave a field out, leave out its key."
-                                 : "This is not " + std::string(expected) + ".",
-                .limit = std::string(expected),
-                .actual = shownNode(node)});
+  problems.add(invalidValue(place.pointer(),
+                            isNull ? "null is no value here; to leave a field out, leave out its key."
+                                   : "This is not " + std::string(expected) + ".",
+                            std::string(expected), shownNode(node)));
+  return false;
 }
 
 void appendKeys(const StructType& type, std::vector<std::string_view>& keys) {
@@ -249,6 +211,22 @@ void appendKeys(const StructType& type, std::vector<std::string_view>& keys) {
       keys.push_back(field.name);
     }
   }
+}
+
+Problems decodeJson(std::string_view json, const ValueType& type, void* out) {
+  ProblemList problems;
+  const std::optional<JsonNode> root = readJson(json, problems);
+  if (root) decodeValue(*root, Notes{}, Place(), problems, type, out);
+  return std::move(problems).take();
+}
+
+bool readReply(std::string_view json, std::initializer_list<const char*> keys, const ValueType& type, void* out) {
+  const Json document = Json::parse(json, nullptr, false);
+  const auto isThere = [&](const char* key) { return document.is_object() && document.contains(key); };
+  if (!std::all_of(keys.begin(), keys.end(), isThere)) return false;
+  ProblemList unknown;
+  decodeValue(nodeOf(document), Notes{}, Place(), unknown, type, out);
+  return true;
 }
 
 bool decodeValue(const JsonNode& node, const Notes& notes, const Place& place, ProblemList& problems,

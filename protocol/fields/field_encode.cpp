@@ -1,8 +1,7 @@
-#include "protocol/fields/field_encode.h"
-
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/text.h"
+#include "protocol/fields/field_codec.h"
 
 namespace gnomon {
 namespace {

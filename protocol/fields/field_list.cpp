@@ -5,7 +5,7 @@
 #include <set>
 
 #include "protocol/fields/field_checks.h"
-#include "protocol/fields/field_encode.h"
+#include "protocol/fields/field_codec.h"
 #include "protocol/fields/json_schema.h"
 #include "protocol/spec/frame_spec.h"
 

@@ -9,7 +9,7 @@
 
 /// How a struct describes its members, once. Decoding, encoding, range checks, the JSON schema and the field
 /// tables are all computed from these descriptions (field_rows.h, reply_rows.h).
-/// Enumerators are spelled in JSON as in C++, which the compiler checks.
+/// Members and enumerators are spelled in JSON as in C++. A member or an enumerator without its row does not compile.
 namespace gnomon {
 
 /// The numbers that a field takes; an open end is excluded. Applies to each component of a vector.
@@ -51,7 +51,7 @@ constexpr Choices powersOfTwo(int first, int last) {
 
 /// What the type of a member doesn't say.
 struct Notes {
-  std::string_view says;      ///< one sentence: what it means, and what its absence means
+  std::string_view says{};    ///< one sentence: what it means, and what its absence means
   std::string_view unit = ""; ///< "" = a plain number, or no number
   Range range{};
   Choices choices{};        ///< none = every value of the range
@@ -70,14 +70,34 @@ struct Field {
   bool inlined = false; ///< an optional struct whose own fields are directly in the owner's JSON object
 };
 
-template <class Owner, class Member>
-constexpr Field<Owner, Member> field(std::string_view name, Member Owner::*member, Notes notes) {
-  return {name, member, notes, false};
+/// The enumerator's or the member's name as the compiler writes it; a number in parentheses where there is none.
+template <auto kValue>
+consteval std::string_view compilerName() {
+  const std::string_view text = __PRETTY_FUNCTION__;
+  const std::string_view marker = "kValue = ";
+  const std::size_t begin = text.find(marker) + marker.size();
+  const std::string_view value = text.substr(begin, text.find_first_of(";]", begin) - begin);
+  if (value.starts_with('(')) return value;
+  const std::string_view name = value.substr(value.rfind(':') + 1);
+  return name.ends_with('_') ? name.substr(0, name.size() - 1) : name; // float_ avoids a keyword
 }
 
 template <class Owner, class Member>
-constexpr Field<Owner, Member> inlined(std::string_view name, Member Owner::*member, Notes notes) {
-  return {name, member, notes, true};
+constexpr Field<Owner, Member> fieldOf(std::string_view name, Member Owner::*member, std::string_view says, Notes notes,
+                                       bool inlined) {
+  notes.says = says;
+  return {name, member, notes, inlined};
+}
+
+/// The row of a member: field<&Camera::node>("What it means.").
+template <auto kMember>
+constexpr auto field(std::string_view says, Notes notes = {}) {
+  return fieldOf(compilerName<kMember>(), kMember, says, notes, false);
+}
+
+template <auto kMember>
+constexpr auto inlined(std::string_view says, Notes notes = {}) {
+  return fieldOf(compilerName<kMember>(), kMember, says, notes, true);
 }
 
 /// Optional fields of which at most one may be given; unused places are empty.
@@ -96,15 +116,34 @@ struct Rows {
   }
 };
 
+/// Stands for any member when an aggregate is initialised in an unevaluated place.
+struct AnyMember {
+  template <class T>
+  operator T() const;
+};
+
+/// How many members the aggregate T has: the most initialisers that it takes.
+template <class T, class... Initialisers>
+consteval std::size_t memberCount() {
+  if constexpr (requires { T{Initialisers{}..., AnyMember{}}; }) {
+    return memberCount<T, Initialisers..., AnyMember>();
+  } else {
+    return sizeof...(Initialisers);
+  }
+}
+
 template <class Owner, class... Members>
 constexpr Rows<Owner, Members...> rows(std::string_view name, std::string_view says, Field<Owner, Members>... fields) {
+  static_assert(sizeof...(Members) == memberCount<Owner>(), "a member has no row");
   return {name, says, {fields...}, {}, false};
 }
 
 template <class Owner, class... Members>
 constexpr Rows<Owner, Members...> replyRows(std::string_view name, std::string_view says,
                                             Field<Owner, Members>... fields) {
-  return {name, says, {fields...}, {}, true};
+  Rows<Owner, Members...> result = rows(name, says, fields...);
+  result.reply = true;
+  return result;
 }
 
 /// A described struct has a specialisation of this.
@@ -123,35 +162,16 @@ constexpr void forEachField(Visit&& visit) {
   std::apply([&](const auto&... fields) { (visit(fields), ...); }, kRows<T>.fields);
 }
 
-/// Stands for any member when an aggregate is initialised in an unevaluated place.
-struct AnyMember {
-  template <class T>
-  operator T() const;
-};
-
-/// How many members the aggregate T has: the most initialisers that it takes.
-template <class T, class... Initialisers>
-consteval std::size_t memberCount() {
-  if constexpr (requires { T{Initialisers{}..., AnyMember{}}; }) {
-    return memberCount<T, Initialisers..., AnyMember>();
-  } else {
-    return sizeof...(Initialisers);
-  }
-}
-
-/// True where every member of T has its row, so that none is forgotten.
-template <Described T>
-inline constexpr bool kRowsAreComplete = kRowCount<T> == memberCount<T>();
-
 struct Spelling {
   int value = 0;
   std::string_view name;
   std::string_view says; ///< a phrase for the documentation; empty = the name says it
 };
 
-template <class Enum>
-constexpr Spelling spelling(Enum value, std::string_view name, std::string_view says = "") {
-  return {static_cast<int>(value), name, says};
+/// The row of an enumerator: spelling<View::depth>("a phrase").
+template <auto kEnumerator>
+constexpr Spelling spelling(std::string_view says = "") {
+  return {static_cast<int>(kEnumerator), compilerName<kEnumerator>(), says};
 }
 
 /// A spelled enum has a specialisation of this: one element for each enumerator, in order.
@@ -169,33 +189,19 @@ struct RetiredWord {
 template <class Enum>
 inline constexpr std::array<RetiredWord, 0> kRetiredWords{};
 
-/// The enumerator's name as the compiler writes it; a number in parentheses where there is none.
-template <auto kValue>
-consteval std::string_view compilerName() {
-  const std::string_view text = __PRETTY_FUNCTION__;
-  const std::string_view marker = "kValue = ";
-  const std::size_t begin = text.find(marker) + marker.size();
-  const std::string_view value = text.substr(begin, text.find_first_of(";]", begin) - begin);
-  if (value.starts_with('(')) return value;
-  const std::string_view name = value.substr(value.rfind(':') + 1);
-  return name.ends_with('_') ? name.substr(0, name.size() - 1) : name; // float_ avoids a keyword
-}
-
-/// True where the table holds every enumerator of Enum by its own name, in order from 0.
-template <class Enum, std::size_t kIndex = 0>
+/// True where the table holds every enumerator of Enum, in order from 0.
+template <class Enum>
 consteval bool spellsAll() {
-  constexpr std::string_view kName = compilerName<static_cast<Enum>(kIndex)>();
-  if constexpr (kIndex == kSpellings<Enum>.size()) {
-    return kName.starts_with('(');
-  } else {
-    constexpr Spelling kRow = kSpellings<Enum>[kIndex];
-    return kRow.value == static_cast<int>(kIndex) && kRow.name == kName && spellsAll<Enum, kIndex + 1>();
+  for (std::size_t i = 0; i < kSpellings<Enum>.size(); ++i) {
+    if (kSpellings<Enum>[i].value != static_cast<int>(i)) return false;
   }
+  return compilerName<static_cast<Enum>(kSpellings<Enum>.size())>().starts_with('(');
 }
 
 /// True where a table has one row for each enumerator, in order. `key`: the row's enumerator.
 template <class Row, std::size_t kCount, Spelled Enum>
 consteval bool rowsAreComplete(const std::array<Row, kCount>& rows, Enum Row::*key) {
+  static_assert(spellsAll<Enum>());
   for (std::size_t i = 0; i < kCount; ++i) {
     if (static_cast<std::size_t>(rows[i].*key) != i) return false;
   }
@@ -205,6 +211,7 @@ consteval bool rowsAreComplete(const std::array<Row, kCount>& rows, Enum Row::*k
 /// The JSON word of an enumerator.
 template <Spelled Enum>
 constexpr std::string_view spell(Enum value) {
+  static_assert(spellsAll<Enum>());
   return kSpellings<Enum>[static_cast<std::size_t>(value)].name;
 }
 

@@ -3,8 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "protocol/fields/field_decode.h"
-#include "protocol/fields/field_encode.h"
+#include "protocol/fields/field_codec.h"
 
 namespace gnomon {
 namespace {

@@ -127,6 +127,7 @@ consteval ValueType makeValueType() {
   } else if constexpr (ContainerOf<T>::exists) {
     return makeContainerType<T>();
   } else if constexpr (Spelled<T>) {
+    static_assert(spellsAll<T>(), "an enumerator has no spelling");
     return {.kind = Kind::word,
             .spellings = kSpellings<T>,
             .retired = kRetiredWords<T>,

@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "protocol/base/result.h"
+#include "protocol/json/json_codec.h"
 
 /// Sequences that are drawn in the background.
 /// Rows of the fields: job_rows.h.
@@ -36,5 +38,11 @@ struct Job {
 struct JobList {
   std::vector<Job> jobs{};
 };
+
+/// The job that a server wrote as JSON; what it says beyond our rows is passed over. Nothing = it is no job.
+std::optional<Job> readJob(std::string_view json);
+
+/// The jobs of a list; nothing = it is no such list.
+std::optional<JobList> readJobList(std::string_view json);
 
 } // namespace gnomon

@@ -8,38 +8,31 @@ namespace gnomon {
 
 template <>
 inline constexpr std::array kSpellings<JobState>{
-    spelling(JobState::queued, "queued", "no frame was begun"),
-    spelling(JobState::running, "running", "some frames were begun"),
-    spelling(JobState::done, "done", "all frames are drawn"),
-    spelling(JobState::failed, "failed", "a frame could not be drawn"),
-    spelling(JobState::cancelled, "cancelled", "it was removed while a client waited for it"),
+    spelling<JobState::queued>("no frame was begun"),
+    spelling<JobState::running>("some frames were begun"),
+    spelling<JobState::done>("all frames are drawn"),
+    spelling<JobState::failed>("a frame could not be drawn"),
+    spelling<JobState::cancelled>("it was removed while a client waited for it"),
 };
-static_assert(spellsAll<JobState>());
 
 template <>
 inline constexpr auto kRows<Job> = replyRows(
-    "Job", "A sequence that is drawn in the background.",
-    field("id", &Job::id, {.says = "Names the job; not guessable."}),
-    field("state", &Job::state, {.says = "State of the job."}),
-    field("scene", &Job::scene, {.says = "Id of its scene."}),
-    field("first", &Job::first, {.says = "Index of the first frame that is drawn."}),
-    field("done", &Job::done, {.says = "Frames that are drawn."}),
-    field("of", &Job::of, {.says = "Frames that are to be drawn; the last index is `first` + `of` - 1."}),
-    field("bytes", &Job::bytes, {.says = "Size of the pictures so far.", .unit = "bytes"}),
-    field("created", &Job::created, {.says = "When it was requested; RFC 3339, in UTC, as all its times."}),
-    field("started", &Job::started, {.says = "When its first frame was begun; absent = not yet."}),
-    field("ended", &Job::ended, {.says = "When it was done or failed; absent = not yet."}),
-    field("expires", &Job::expires, {.says = "When it is removed with its pictures, if no further frame is drawn."}),
-    field("problems", &Job::problems, {.says = "Why it failed; pointers are places in the request for the sequence."}),
-    field("address", &Job::address, {.says = "Address of the job."}),
-    field("result", &Job::result, {.says = "Address of all frames, in the forms of a sequence."}),
-    field("frames", &Job::frames, {.says = "Address of one frame, with its index for `{index}`."}));
-static_assert(kRowsAreComplete<Job>);
+    "Job", "A sequence that is drawn in the background.", field<&Job::id>("Names the job; not guessable."),
+    field<&Job::state>("State of the job."), field<&Job::scene>("Id of its scene."),
+    field<&Job::first>("Index of the first frame that is drawn."), field<&Job::done>("Frames that are drawn."),
+    field<&Job::of>("Frames that are to be drawn; the last index is `first` + `of` - 1."),
+    field<&Job::bytes>("Size of the pictures so far.", {.unit = "bytes"}),
+    field<&Job::created>("When it was requested; RFC 3339, in UTC, as all its times."),
+    field<&Job::started>("When its first frame was begun; absent = not yet."),
+    field<&Job::ended>("When it was done or failed; absent = not yet."),
+    field<&Job::expires>("When it is removed with its pictures, if no further frame is drawn."),
+    field<&Job::problems>("Why it failed; pointers are places in the request for the sequence."),
+    field<&Job::address>("Address of the job."),
+    field<&Job::result>("Address of all frames, in the forms of a sequence."),
+    field<&Job::frames>("Address of one frame, with its index for `{index}`."));
 
 template <>
 inline constexpr auto kRows<JobList> = replyRows("JobList", "Jobs.",
-                                                 field("jobs", &JobList::jobs,
-                                                       {.says = "Those of the client's key, the newest first."}));
-static_assert(kRowsAreComplete<JobList>);
+                                                 field<&JobList::jobs>("Those of the client's key, the newest first."));
 
 } // namespace gnomon

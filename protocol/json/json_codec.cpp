@@ -4,8 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/text.h"
-#include "protocol/fields/field_decode.h"
-#include "protocol/fields/field_encode.h"
+#include "protocol/fields/field_codec.h"
 #include "protocol/fields/fields.h"
 #include "protocol/json/problem_rows.h"
 #include "protocol/report/frame_report.h"
@@ -15,10 +14,7 @@ namespace gnomon {
 
 bool decodeStages(const JsonNode& node, const Place& place, ProblemList& problems, void* out) {
   const auto* object = std::get_if<JsonNode::Object>(&node.value);
-  if (!object) {
-    addWrongType(node, "an object", place, problems);
-    return false;
-  }
+  if (!object) return addWrongType(node, "an object", place, problems);
   auto& stages = valueAs<std::vector<StageTime>>(out);
   for (const JsonMember& member : *object) {
     StageTime stage{member.key};
@@ -58,38 +54,18 @@ Result<FrameSpec> decodeFrameSpec(std::string_view json) {
 }
 
 Result<SceneSummary> decodeSceneSummary(std::string_view json) {
-  ProblemList problems;
-  SceneSummary summary;
-  if (const std::optional<JsonNode> root = readJson(json, problems)) {
-    decodeValue(*root, Notes{}, Place(), problems, summary);
-  }
-  if (problems.empty()) return summary;
-  return std::move(problems).take();
+  return decodeJson<SceneSummary>(json);
 }
 
-Json toJson(const FrameSpec& spec) {
-  return encodeValue(spec);
+std::optional<NodePage> readNodePage(std::string_view json) {
+  const auto page = decodeJson<NodePage>(json);
+  return page ? std::optional(*page) : std::nullopt;
 }
-Json toJson(const FrameReport& report) {
-  return encodeValue(report);
-}
-Json toJson(const PlanReport& report) {
-  return encodeValue(report);
-}
-Json toJson(const SceneSummary& summary) {
-  return encodeValue(summary);
-}
-Json toJson(const RendererInfo& info) {
-  return encodeValue(info);
-}
-Json toJson(const FrameReply& reply) {
-  return encodeValue(reply);
-}
-Json toJson(const SceneList& list) {
-  return encodeValue(list);
-}
-Json toJson(const Capabilities& capabilities) {
-  return encodeValue(capabilities);
+
+std::optional<QualityReport> readQualityReport(std::string_view json) {
+  auto report = decodeJson<QualityReport>(json);
+  if (!report || report->chosen >= report->tried.size()) return std::nullopt;
+  return *std::move(report);
 }
 
 std::string jsonText(const Json& json) {

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "protocol/base/result.h"
+#include "protocol/fields/field_codec.h"
 #include "protocol/json/json_source.h"
 #include "protocol/report/frame_report.h"
 #include "protocol/report/replies.h"
@@ -24,15 +28,6 @@ Result<SceneSummary> decodeSceneSummary(std::string_view json);
 /// One line of JSON. Names in a scene need not be UTF-8: bytes that are not are replaced.
 std::string jsonText(const Json& json);
 
-Json toJson(const FrameSpec& spec); ///< fixed key order; reading it back gives the same spec
-Json toJson(const FrameReport& report);
-Json toJson(const PlanReport& report);
-Json toJson(const SceneSummary& summary);
-Json toJson(const RendererInfo& info);
-Json toJson(const FrameReply& reply);
-Json toJson(const SceneList& list);
-Json toJson(const Capabilities& capabilities);
-
 /// The body of application/problem+json (RFC 9457): {type, title, status, detail, instance, problems: [{code, pointer,
 /// detail, limit?, actual?}]}. Type and title are the first problem's; `status` is the caller's choice; an empty
 /// `instance` is left out. Bytes that are not UTF-8 are replaced. `problems` is not empty.
@@ -43,5 +38,16 @@ std::string_view problemTitle(ProblemCode code); ///< "Invalid Value"
 
 /// The schema of that body.
 Json problemSchema();
+
+/// A FrameSpec from a decoded query string, as strictly as decodeFrameSpec: keys are fields' paths
+/// ("camera.orbit.azimuthDegrees", "lights[0].intensity"; see base/json.h) in any order, values are JSON or bare
+/// words; short forms: sun=AZIMUTH,ELEVATION; view=NAME; format=png. Pointers name the query key.
+Result<FrameSpec> decodeFrameQuery(const std::vector<std::pair<std::string, std::string>>& query);
+
+/// The page as toJson writes it; nothing = it is no page.
+std::optional<NodePage> readNodePage(std::string_view json);
+
+/// The report as toJson writes it, whose `chosen` is one of those tried; nothing = it is no such report.
+std::optional<QualityReport> readQualityReport(std::string_view json);
 
 } // namespace gnomon

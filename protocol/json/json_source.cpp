@@ -59,9 +59,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     object.key = key;
     object.keyIsOpen = true;
     if (!object.keys.insert(key).second) {
-      problems_.add({.code = ProblemCode::invalidValue,
-                     .pointer = pointer(),
-                     .detail = "This key appears more than once in its object."});
+      problems_.add(invalidValue(pointer(), "This key appears more than once in its object."));
     }
     return true;
   }
@@ -69,11 +67,8 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   bool parse_error(std::size_t, const std::string& token, const nlohmann::detail::exception& error) override {
     constexpr int kNumberOverflow = 406;
     if (error.id == kNumberOverflow) {
-      problems_.add({.code = ProblemCode::invalidValue,
-                     .pointer = pointer(),
-                     .detail = "This number is too large.",
-                     .limit = "a finite 64-bit floating-point number",
-                     .actual = shortened(asUtf8(token), kMaxShownBytes)});
+      problems_.add(invalidValue(pointer(), "This number is too large.", "a finite 64-bit floating-point number",
+                                 shortened(asUtf8(token), kMaxShownBytes)));
     } else {
       problems_.add({.code = ProblemCode::malformed,
                      .pointer = pointer(),

@@ -1,11 +1,8 @@
-#include "protocol/json/query_codec.h"
-
 #include <algorithm>
 #include <unordered_set>
 
 #include "protocol/base/json.h"
 #include "protocol/base/text.h"
-#include "protocol/json/field_path.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/json/json_source.h"
 #include "protocol/spec/limits.h"
@@ -43,10 +40,8 @@ std::optional<JsonNode> valueOf(const std::string& text, ProblemList& problems) 
 std::optional<JsonNode> sunOf(const std::string& text, ProblemList& problems) {
   const std::vector<std::string> angles = split(text, ',');
   if (angles.size() != 2) {
-    problems.add({.code = ProblemCode::invalidValue,
-                  .detail = "sun is two numbers with a comma between them.",
-                  .limit = "AZIMUTH,ELEVATION in degrees",
-                  .actual = shortened(asUtf8(text), 60)});
+    problems.add(invalidValue("", "sun is two numbers with a comma between them.", "AZIMUTH,ELEVATION in degrees",
+                              shortened(asUtf8(text), 60)));
     return std::nullopt;
   }
   std::optional<JsonNode> azimuth = valueOf(angles[0], problems);

@@ -5,11 +5,9 @@
 #include <string_view>
 
 #include "protocol/fields/field_list.h"
-#include "protocol/openapi/openapi_access.h"
 #include "protocol/openapi/openapi_parts.h"
-#include "protocol/openapi/sequence_routes.h"
-#include "protocol/report/node_list.h"
-#include "protocol/spec/format_traits.h"
+#include "protocol/report/replies.h"
+#include "protocol/spec/traits.h"
 
 namespace gnomon {
 namespace {
@@ -32,10 +30,7 @@ Json uploadParts() {
 }
 
 Json strictParameter() {
-  return {{"name", "strict"},
-          {"in", "query"},
-          {"description", kStrict},
-          {"schema", {{"type", "boolean"}, {"default", false}}}};
+  return parameter("strict", "query", kStrict, {{"type", "boolean"}, {"default", false}});
 }
 
 /// A scene as the whole body, or as a form with the files that it names.
@@ -144,14 +139,10 @@ Json scenesRoute() {
       replies({{"200", success("A page, ascending by id; it may have fewer than `limit`.", content, {"Link"})}},
               {"400", "429", "500", "503", "504"}));
   get["parameters"] =
-      Json::array({{{"name", "limit"},
-                    {"in", "query"},
-                    {"description", "The most scenes on the page."},
-                    {"schema", {{"type", "integer"}, {"minimum", 1}, {"maximum", 1000}, {"default", 100}}}},
-                   {{"name", "after"},
-                    {"in", "query"},
-                    {"description", "What the page before gave as its `next`; absent = the first page."},
-                    {"schema", {{"type", "string"}, {"pattern", "^[0-9a-f]{64}$"}}}}});
+      Json::array({parameter("limit", "query", "The most scenes on the page.",
+                             {{"type", "integer"}, {"minimum", 1}, {"maximum", 1000}, {"default", 100}}),
+                   parameter("after", "query", "What the page before gave as its `next`; absent = the first page.",
+                             {{"type", "string"}, {"pattern", "^[0-9a-f]{64}$"}})});
   return {{"get", std::move(get)}, {"post", withBody(std::move(post), sceneBody())}};
 }
 
@@ -161,15 +152,11 @@ Json nodesRoute() {
                           replies(jsonReply("A page, ascending by index; it may have fewer than `limit`.", "NodeList"),
                                   {"400", "404", "422", "429", "500", "503", "504"})));
   get["parameters"].push_back(
-      {{"name", "limit"},
-       {"in", "query"},
-       {"description", "The most nodes on the page."},
-       {"schema",
-        {{"type", "integer"}, {"minimum", 1}, {"maximum", kMostNodesOnPage}, {"default", NodePage{}.limit}}}});
-  get["parameters"].push_back({{"name", "after"},
-                               {"in", "query"},
-                               {"description", "What the page before gave as its `next`; absent = the first page."},
-                               {"schema", {{"type", "integer"}, {"minimum", 0}}}});
+      parameter("limit", "query", "The most nodes on the page.",
+                {{"type", "integer"}, {"minimum", 1}, {"maximum", kMostNodesOnPage}, {"default", NodePage{}.limit}}));
+  get["parameters"].push_back(parameter("after", "query",
+                                        "What the page before gave as its `next`; absent = the first page.",
+                                        {{"type", "integer"}, {"minimum", 0}}));
   return {{"get", std::move(get)}};
 }
 
@@ -242,11 +229,9 @@ Json bakeRoute() {
   Json get = withBake(operation("getBake", "What was baked, as a file",
                                 replies({{"200", success(description, content)}},
                                         {"400", "404", "406", "413", "422", "429", "500", "503", "504"})));
-  get["parameters"].push_back(
-      {{"name", "light"},
-       {"in", "query"},
-       {"description", "Index of one of the baked lights; without it the first for PNG, and all for EXR and GLB."},
-       {"schema", {{"type", "integer"}, {"minimum", 0}}}});
+  get["parameters"].push_back(parameter(
+      "light", "query", "Index of one of the baked lights; without it the first for PNG, and all for EXR and GLB.",
+      {{"type", "integer"}, {"minimum", 0}}));
   return {{"get", std::move(get)}, {"delete", withBake(std::move(remove))}};
 }
 

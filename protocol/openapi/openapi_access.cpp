@@ -1,5 +1,3 @@
-#include "protocol/openapi/openapi_access.h"
-
 #include <algorithm>
 #include <array>
 #include <initializer_list>

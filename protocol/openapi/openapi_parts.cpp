@@ -4,13 +4,11 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "protocol/bake/bake_report.h"
+#include "protocol/bake/bake.h"
 #include "protocol/evaluation/evaluation.h"
 #include "protocol/fields/json_schema.h"
 #include "protocol/job/job.h"
 #include "protocol/json/json_codec.h"
-#include "protocol/openapi/openapi_access.h"
-#include "protocol/report/node_list.h"
 #include "protocol/report/replies.h"
 #include "protocol/sequence/sequence.h"
 
@@ -65,29 +63,14 @@ Json headers() {
 }
 
 Json parameters() {
-  return {{"sceneId",
-           {{"name", "id"},
-            {"in", "path"},
-            {"required", true},
-            {"description", "SHA-256 of the upload, as 64 lower-case hexadecimal digits."},
-            {"schema", {{"type", "string"}, {"pattern", "^[0-9a-f]{64}$"}}}}},
-          {"jobId",
-           {{"name", "id"},
-            {"in", "path"},
-            {"required", true},
-            {"description", "The job's id, from the reply that made it."},
-            {"schema", {{"type", "string"}, {"pattern", "^[0-9a-f]{32}$"}}}}},
-          {"bakeKey",
-           {{"name", "key"},
-            {"in", "path"},
-            {"required", true},
-            {"description", "The bake's key, from its report or its progress."},
-            {"schema", {{"type", "string"}, {"pattern", "^[0-9a-f]{64}$"}}}}},
+  return {{"sceneId", parameter("id", "path", "SHA-256 of the upload, as 64 lower-case hexadecimal digits.",
+                                {{"type", "string"}, {"pattern", "^[0-9a-f]{64}$"}})},
+          {"jobId", parameter("id", "path", "The job's id, from the reply that made it.",
+                              {{"type", "string"}, {"pattern", "^[0-9a-f]{32}$"}})},
+          {"bakeKey", parameter("key", "path", "The bake's key, from its report or its progress.",
+                                {{"type", "string"}, {"pattern", "^[0-9a-f]{64}$"}})},
           {"ifNoneMatch",
-           {{"name", "If-None-Match"},
-            {"in", "header"},
-            {"description", "The ETag of a picture that the client has."},
-            {"schema", {{"type", "string"}}}}}};
+           parameter("If-None-Match", "header", "The ETag of a picture that the client has.", {{"type", "string"}})}};
 }
 
 Json responses() {
@@ -145,6 +128,14 @@ Json schemaContent(const std::string& schema) {
 
 Json bytesContent() {
   return Json::object();
+}
+
+Json parameter(const char* name, const char* in, const char* description, Json schema) {
+  Json result = {{"name", name}, {"in", in}};
+  if (std::string_view(in) == "path") result["required"] = true;
+  result["description"] = description;
+  result["schema"] = std::move(schema);
+  return result;
 }
 
 Json success(const char* description, Json content, std::initializer_list<const char*> headers) {

@@ -3,7 +3,9 @@
 #include <initializer_list>
 #include <string>
 
+#include "protocol/base/json.h"
 #include "protocol/json/json_codec.h"
+#include "protocol/json/json_source.h"
 
 /// What the routes' descriptions are put together from.
 namespace gnomon::openapi {
@@ -13,6 +15,9 @@ Json schemaContent(const std::string& schema);
 Json bytesContent(); ///< bytes of a media type have no schema of their own in OpenAPI 3.1
 
 Json success(const char* description, Json content, std::initializer_list<const char*> headers = {});
+
+/// Of a query, a header or a path; in a path it is required.
+Json parameter(const char* name, const char* in, const char* description, Json schema);
 
 /// A route's replies: `good`, and the refusals of these statuses.
 Json replies(Json good, std::initializer_list<const char*> statuses);
@@ -29,5 +34,18 @@ Json withBody(Json operation, Json body);
 
 /// The schemas, responses, headers and parameters that the routes refer to.
 Json components();
+
+/// The two kinds of credentials: components/securitySchemes.
+Json securitySchemes();
+
+/// The paths with what each operation needs where the server has keys, and with the replies that refuse a request
+/// because of the client's key or address.
+Json withAccess(Json paths);
+
+Json sequencesRoute(); ///< /v1/scenes/{id}/sequences
+Json jobsRoute();      ///< /v1/jobs
+Json jobRoute();       ///< /v1/jobs/{id}
+Json jobResultRoute(); ///< /v1/jobs/{id}/result
+Json jobFrameRoute();  ///< /v1/jobs/{id}/frames/{index}
 
 } // namespace gnomon::openapi

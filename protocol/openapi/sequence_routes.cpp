@@ -1,10 +1,8 @@
-#include "protocol/openapi/sequence_routes.h"
-
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "protocol/openapi/openapi_parts.h"
-#include "protocol/spec/format_traits.h"
+#include "protocol/spec/traits.h"
 
 namespace gnomon::openapi {
 namespace {
@@ -38,11 +36,9 @@ Json sequencesRoute() {
   const Json body = {{"required", true}, {"content", {{"application/json", schemaContent("SequenceRequest")}}}};
   post = withBody(withScene(std::move(post)), body);
   post["parameters"].push_back(
-      {{"name", "Prefer"},
-       {"in", "header"},
-       {"description",
-        "respond-async (RFC 7240): a job draws the frames, and the reply says where it is; no video is a job."},
-       {"schema", {{"type", "string"}}}});
+      parameter("Prefer", "header",
+                "respond-async (RFC 7240): a job draws the frames, and the reply says where it is; no video is a job.",
+                {{"type", "string"}}));
   return {{"post", std::move(post)}};
 }
 
@@ -61,10 +57,8 @@ Json jobRoute() {
   Json get = withJob(operation("getJob", "How far a job is",
                                replies({{"200", success(description, content)}}, {"400", "404", "406", "503"})));
   get["parameters"].push_back(
-      {{"name", "wait"},
-       {"in", "query"},
-       {"description", "Seconds to wait for its end, at most --request-timeout; Prefer: wait= does the same."},
-       {"schema", {{"type", "integer"}, {"minimum", 0}}}});
+      parameter("wait", "query", "Seconds to wait for its end, at most --request-timeout; Prefer: wait= does the same.",
+                {{"type", "integer"}, {"minimum", 0}}));
   Json remove = operation("deleteJob", "End a job and remove its pictures",
                           replies({{"204", success("It is gone.", Json())}}, {"400", "404", "503"}));
   return {{"get", std::move(get)}, {"delete", withJob(std::move(remove))}};
@@ -86,11 +80,7 @@ Json jobFrameRoute() {
       withJob(operation("getJobFrame", "A frame of a job",
                         replies({{"200", success("Its picture; of several views multipart/mixed.", content, {"ETag"})}},
                                 {"304", "400", "404", "406", "503"})));
-  get["parameters"].push_back({{"name", "index"},
-                               {"in", "path"},
-                               {"required", true},
-                               {"description", "Index of the frame."},
-                               {"schema", {{"type", "integer"}, {"minimum", 0}}}});
+  get["parameters"].push_back(parameter("index", "path", "Index of the frame.", {{"type", "integer"}, {"minimum", 0}}));
   get["parameters"].push_back(reference("parameters/ifNoneMatch"));
   return {{"get", std::move(get)}};
 }

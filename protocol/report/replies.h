@@ -47,7 +47,6 @@ struct LightSummary {
   std::string type{};
 };
 
-/// Bytes of a loaded scene by what they hold; they add up to its memoryBytes.
 struct MemorySummary {
   std::uint64_t vertices = 0;
   std::uint64_t indices = 0;
@@ -94,7 +93,6 @@ struct SceneSummary {
   std::vector<std::string> warnings{};
 };
 
-/// A picture within a JSON reply.
 struct ImageReply {
   std::string view{};
   std::string contentType{};
@@ -118,6 +116,27 @@ struct Capabilities {
   std::string version{};
   RendererInfo renderer{};
   Limits limits = kLimits;
+};
+
+/// A node of the file, whichever of its scenes it belongs to.
+struct NodeSummary {
+  int node = 0;
+  std::string name{};
+  std::optional<int> parent{};
+  std::uint64_t triangles = 0;
+};
+
+struct NodePage {
+  int after = -1;
+  int limit = 1000;
+};
+
+inline constexpr int kMostNodesOnPage = 10'000;
+
+/// GET /v1/scenes/{id}/nodes: one page, ascending by index.
+struct NodeList {
+  std::vector<NodeSummary> nodes{};
+  std::optional<int> next{};
 };
 
 } // namespace gnomon

@@ -42,19 +42,17 @@ void check(const Json& a, const Json& b, const ValueType* type, const Place& pla
       if (b.contains(key)) {
         check(value, b[key], object != nullptr ? memberOf(*object, key) : nullptr, inner, problems);
       } else {
-        problems.add({.code = ProblemCode::invalidValue,
-                      .pointer = inner.pointer(),
-                      .detail = "The key before has this field, so this one needs it, too.",
-                      .limit = shown(value)});
+        problems.add(
+            invalidValue(inner.pointer(), "The key before has this field, so this one needs it, too.", shown(value)));
       }
     }
     for (const auto& [key, value] : b.items()) {
       if (a.contains(key)) continue;
-      problems.add({.code = ProblemCode::invalidValue,
-                    .pointer = Place(place, key).pointer(),
-                    .detail = "Neither the spec nor the key before has this field, so there is nothing to interpolate "
-                              "from.",
-                    .actual = shown(value)});
+      problems.add(
+          invalidValue(Place(place, key).pointer(),
+                       "Neither the spec nor the key before has this field, so there is nothing to interpolate "
+                       "from.",
+                       "", shown(value)));
     }
     return;
   }
@@ -67,12 +65,10 @@ void check(const Json& a, const Json& b, const ValueType* type, const Place& pla
   }
   if (a == b || (a.is_number() && b.is_number() && type != nullptr && type->kind == Kind::number)) return;
   const bool numbers = a.is_number() && b.is_number();
-  problems.add({.code = ProblemCode::invalidValue,
-                .pointer = place.pointer(),
-                .detail = numbers ? "A whole number can't be interpolated; neighbouring keys must have the same."
-                                  : "Only numbers are interpolated; neighbouring keys must agree in all else.",
-                .limit = shown(a),
-                .actual = shown(b)});
+  problems.add(invalidValue(place.pointer(),
+                            numbers ? "A whole number can't be interpolated; neighbouring keys must have the same."
+                                    : "Only numbers are interpolated; neighbouring keys must agree in all else.",
+                            shown(a), shown(b)));
 }
 
 } // namespace

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <functional>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "protocol/base/result.h"
 #include "protocol/evaluation/evaluation.h"
+#include "protocol/json/json_codec.h"
 #include "protocol/report/frame_report.h"
 #include "protocol/report/replies.h"
 #include "protocol/spec/frame_spec.h"
@@ -18,7 +22,6 @@ namespace gnomon {
 inline constexpr std::string_view kVideoReportTag = "GNOMON_REPORT";
 inline constexpr std::string_view kVideoProblemTag = "GNOMON_PROBLEM";
 
-/// The view depths that one light's cascades cover.
 struct CarriedRange {
   int light = 0;
   double near = 0;
@@ -71,6 +74,68 @@ struct SequenceReport {
   Carried carried{};
   std::vector<std::string> warnings{};
   RendererInfo renderer{};
+};
+
+/// A sequence that passed every check that needs no scene.
+struct Sequence {
+  Json spec{};                 ///< as it was written
+  std::vector<Json> patches{}; ///< frames, or keys
+  bool isKeyed = false;
+  int count = 0; ///< frames, those before `first` included
+  bool stable = true;
+  double framesPerSecond = 30;
+  int videoQuality = 75;
+  int first = 0;
+  Carried carried{}; ///< for frame `first`
+};
+
+/// A SequenceRequest from untrusted JSON, as strictly as decodeFrameSpec. Every frame must give a good spec; its
+/// problems point into /frames/i, or into the key before it. The work is bounded by kLimits.maxSequenceSpecBytes.
+/// `each` is called with every frame from `first` on, in order, without what is carried.
+Result<Sequence> decodeSequence(std::string_view json, const std::function<void(const FrameSpec&)>& each = {});
+
+/// Frame `index` as it is drawn after one that left `before`: it depends on nothing else. Any thread.
+/// REQUIRES: 0 <= index < sequence.count.
+FrameSpec frameSpec(const Sequence& sequence, int index, const Carried& before);
+
+/// Pointer to frame `index` in the request: "/frames/17", "/keys/2".
+std::string framePlace(const Sequence& sequence, int index);
+
+/// What is carried, from untrusted JSON.
+Result<Carried> decodeCarried(std::string_view json);
+
+/// The ranges of a frame's lights with cascades.
+Carried carriedOf(const FrameReport& report);
+
+/// What the next frame takes from one that took `before` and has itself `own`: where a frame has no range of a light,
+/// as with nothing in view, the one before stays.
+Carried carriedAfter(const Carried& before, Carried own);
+
+/// Gives each shadow the fit that moves by whole texels and the depth range of the frame before, except where
+/// `written`, the spec as JSON, says `stabilization` or `depthRange` itself. A light without a range before it gets one
+/// that every scene lies in, so that the first frame is fitted as all others are.
+void makeStable(FrameSpec& spec, const Json& written, const Carried& before);
+
+/// The frame as a video needs it: the first view alone, as it is seen, in 8 bits.
+FrameSpec videoFrame(FrameSpec spec);
+
+/// Whether all frames of a sequence have one size, as a video must.
+class FrameSizes {
+ public:
+  /// Each frame in order, as decodeSequence calls for them.
+  void see(const FrameSpec& spec);
+
+  /// The first frame of another size, with its place. Views that choose their own size are found by their pictures.
+  std::optional<Problem> problem(const Sequence& sequence) const;
+
+ private:
+  int width_ = 0;
+  int height_ = 0;
+  int seen_ = 0; ///< frames
+  struct Other {
+    int number, width, height;
+  };
+  std::optional<Other> other_{};
 };
 
 } // namespace gnomon

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "protocol/spec/frame_spec.h"
@@ -41,5 +43,24 @@ int askedTileSize(ShadowSize size, ShadowImportance importance, int baseSize, in
 
 /// Samples a pixel of pictures.
 int samplesOf(Antialiasing antialiasing);
+
+/// The settings of a light's shadow, as members of `shadow`, that differ from their defaults and that nothing reads:
+/// its technique, filter, type or size has no use for them. `mapped`: whether its shadow map is planned or drawn,
+/// whatever decides the shadow. REQUIRES: the shadow is set, its technique is not auto.
+std::vector<std::string_view> unusedSettings(const Light& light, bool mapped);
+
+/// Where a spec, as it was asked for, names shadow volumes, which only OpenGL draws. JSON Pointers.
+inline std::vector<std::string> placesOfShadowVolumes(const FrameSpec& spec) {
+  std::vector<std::string> places;
+  if (spec.shadow.technique == ShadowTechnique::shadowVolume) places.emplace_back("/shadow/technique");
+  if (!spec.lights) return places;
+  for (std::size_t i = 0; i < spec.lights->size(); ++i) {
+    const std::optional<Shadow>& own = (*spec.lights)[i].shadow;
+    if (own && own->technique == ShadowTechnique::shadowVolume) {
+      places.push_back("/lights/" + std::to_string(i) + "/shadow/technique");
+    }
+  }
+  return places;
+}
 
 } // namespace gnomon

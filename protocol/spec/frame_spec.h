@@ -7,12 +7,10 @@
 #include "protocol/spec/output_options.h"
 #include "protocol/spec/scene_options.h"
 #include "protocol/spec/shadow_options.h"
-#include "protocol/spec/volume_options.h"
 
 /// Rows of the fields: field_rows.h.
 namespace gnomon {
 
-/// Light of the surroundings: a neutral studio, brighter above (+Y) than at the sides and below.
 struct Ambient {
   Vec3 color{1, 1, 1};
   double intensity = 0.3; ///< mean radiance above, weighted by the cosine, in the unit of the lights
@@ -20,7 +18,6 @@ struct Ambient {
   bool operator==(const Ambient&) const = default;
 };
 
-/// What is shown where there is no surface. Neither exposed nor tone mapped.
 struct Background {
   Vec3 color{0.60, 0.66, 0.74};
   double alpha = 1;
@@ -37,7 +34,6 @@ struct AnimationMoment {
   bool operator==(const AnimationMoment&) const = default;
 };
 
-/// What view `motion` compares with. What is absent is as in the frame itself.
 struct MotionFrom {
   std::optional<Camera> camera{};
   std::optional<AnimationMoment> animation{};
@@ -46,7 +42,6 @@ struct MotionFrom {
   bool operator==(const MotionFrom&) const = default;
 };
 
-/// What the debug views show.
 struct Debug {
   std::optional<int> light{};
   int tile = 0;

@@ -58,4 +58,10 @@ struct Output {
   bool operator==(const Output&) const = default;
 };
 
+/// What a depth sensor can measure, metres.
+struct SensorRange {
+  double min = 0; ///< what is nearer is too close
+  double max = 0; ///< what is farther is too far
+};
+
 } // namespace gnomon

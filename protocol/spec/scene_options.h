@@ -4,17 +4,17 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "protocol/spec/limits.h"
 #include "protocol/spec/shadow_options.h"
 
-/// What a request says about the scene: from where it is seen, what lights it, how its nodes take part.
-/// Rows of the fields: scene_rows.h.
+/// What a request says about the scene: from where it is seen, what lights it, how its nodes take part, its volumes.
+/// Rows of the fields: scene_rows.h and field_rows.h.
 namespace gnomon {
 
 using Vec3 = std::array<double, 3>; ///< x y z; metres for points, no unit for directions
 
-/// Placement by the eye and the point that it looks at.
 struct EyeTarget {
   Vec3 eye{0, 0, 5};
   Vec3 target{0, 0, 0};
@@ -23,7 +23,6 @@ struct EyeTarget {
   bool operator==(const EyeTarget&) const = default;
 };
 
-/// Placement on a sphere around a target.
 struct Orbit {
   std::optional<Vec3> target{};
   double azimuthDegrees = 210;
@@ -41,8 +40,6 @@ struct Perspective {
   bool operator==(const Perspective&) const = default;
 };
 
-/// A lens with perspective as calibration gives it. The centre of the upper left pixel is 0 0, so that the middle of a
-/// picture is at (width - 1) / 2, (height - 1) / 2, as in OpenCV.
 struct Intrinsics {
   double fx = 1000;
   double fy = 1000;
@@ -112,7 +109,6 @@ struct NodeOptions {
 
 enum class LightType { directional, spot, point };
 
-/// A direction by the sun's place in the sky.
 struct Sun {
   double azimuthDegrees = 135;
   double elevationDegrees = 45;
@@ -137,6 +133,37 @@ struct Light {
   std::optional<Shadow> shadow{};
 
   bool operator==(const Light&) const = default;
+};
+
+struct VolumeBox {
+  Vec3 min{0, 0, 0};
+  Vec3 max{1, 1, 1};
+
+  bool operator==(const VolumeBox&) const = default;
+};
+
+/// What a value of the grid means.
+struct TransferStop {
+  double value = 0;
+  Vec3 color{1, 1, 1};
+  double extinction = 0;
+
+  bool operator==(const TransferStop&) const = default;
+};
+
+/// A cloud, smoke or fog: numbers on a grid, placed in the scene. At least one of `node`, `box` and `matrix`, and not
+/// both of the last two.
+struct VolumeOptions {
+  std::string file{};
+  std::optional<std::string> grid{};
+  std::optional<std::variant<int, std::string>> node{};
+  std::optional<VolumeBox> box{};
+  std::optional<std::array<double, 16>> matrix{};
+  std::vector<TransferStop> transferFunction{};
+  bool castShadow = true;
+  bool receiveShadow = true;
+
+  bool operator==(const VolumeOptions&) const = default;
 };
 
 } // namespace gnomon

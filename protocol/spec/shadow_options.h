@@ -19,7 +19,6 @@ enum class BiasMode { automatic, manual };
 enum class BlendedCasters { dither, threshold };
 enum class Terminator { smooth, flat };
 
-/// How the depth range is cut into cascades.
 struct Partition {
   PartitionMode mode = PartitionMode::logarithmic;
   double pssmFactor = 0.5;
@@ -28,7 +27,6 @@ struct Partition {
   bool operator==(const Partition&) const = default;
 };
 
-/// A range that an earlier frame's report gave.
 struct PreviousRange {
   double near = 0;
   double far = 0;
@@ -36,7 +34,6 @@ struct PreviousRange {
   bool operator==(const PreviousRange&) const = default;
 };
 
-/// The depths that the cascades cover.
 struct DepthRange {
   DepthRangeMode mode = DepthRangeMode::automatic;
   std::optional<double> min{};
@@ -66,7 +63,6 @@ struct Bias {
   bool operator==(const Bias&) const = default;
 };
 
-/// The texture that technique lightMap keeps a light's shadow in.
 struct LightMapOptions {
   int size = 1024;
   std::optional<double> texelsPerMetre{};
@@ -97,7 +93,6 @@ struct Shadow {
   bool operator==(const Shadow&) const = default;
 };
 
-/// The one depth texture that holds every tile.
 struct Atlas {
   int size = 4096;
   int baseSize = 1024;

@@ -1,6 +1,6 @@
 #include "protocol/fields/field_checks.h"
-#include "protocol/spec/rules.h"
 #include "protocol/spec/traits.h"
+#include "protocol/spec/validate.h"
 
 namespace gnomon {
 namespace {
@@ -11,28 +11,20 @@ void appendPartitionRules(const Shadow& shadow, const std::string& pointer, std:
   const std::string mode = pointer + "/partition/mode";
   if (partition.mode != PartitionMode::manual) {
     if (partition.splits.empty()) return;
-    broken.push_back({{.code = ProblemCode::invalidValue,
-                       .pointer = splits,
-                       .detail = "A list of splits needs partition mode manual.",
-                       .actual = "mode " + std::string(spell(partition.mode))},
+    broken.push_back({invalidValue(splits, "A list of splits needs partition mode manual.", "",
+                                   "mode " + std::string(spell(partition.mode))),
                       {mode}});
     return;
   }
   if (partition.splits.size() != static_cast<std::size_t>(shadow.cascadeCount)) {
-    broken.push_back({{.code = ProblemCode::invalidValue,
-                       .pointer = splits,
-                       .detail = "Partition mode manual needs one split for each cascade.",
-                       .limit = std::to_string(shadow.cascadeCount),
-                       .actual = std::to_string(partition.splits.size())},
+    broken.push_back({invalidValue(splits, "Partition mode manual needs one split for each cascade.",
+                                   std::to_string(shadow.cascadeCount), std::to_string(partition.splits.size())),
                       {mode, splits, pointer + "/cascadeCount"}});
   }
   for (std::size_t i = 1; i < partition.splits.size(); ++i) {
     if (partition.splits[i] > partition.splits[i - 1]) continue;
-    broken.push_back({{.code = ProblemCode::invalidValue,
-                       .pointer = splits + "/" + std::to_string(i),
-                       .detail = "Each split must be more than the one before.",
-                       .limit = "more than " + numberText(partition.splits[i - 1]),
-                       .actual = numberText(partition.splits[i])},
+    broken.push_back({invalidValue(splits + "/" + std::to_string(i), "Each split must be more than the one before.",
+                                   "more than " + numberText(partition.splits[i - 1]), numberText(partition.splits[i])),
                       {mode, splits}});
   }
 }
@@ -44,19 +36,15 @@ void appendDepthRangeRules(const DepthRange& range, const std::string& pointer, 
   const bool manual = range.mode == DepthRangeMode::manual;
   for (const auto& [value, place] : {std::pair(range.min, min), std::pair(range.max, max)}) {
     if (value.has_value() == manual) continue;
-    broken.push_back({{.code = ProblemCode::invalidValue,
-                       .pointer = place,
-                       .detail = manual ? "Mode manual of depthRange needs min and max."
-                                        : "Only mode manual of depthRange has min and max.",
-                       .actual = manual ? "absent" : "mode automatic"},
+    broken.push_back({invalidValue(place,
+                                   manual ? "Mode manual of depthRange needs min and max."
+                                          : "Only mode manual of depthRange has min and max.",
+                                   "", manual ? "absent" : "mode automatic"),
                       {mode, place}});
   }
   if (manual && range.min && range.max && *range.min >= *range.max) {
-    broken.push_back({{.code = ProblemCode::invalidValue,
-                       .pointer = max,
-                       .detail = "The value of max must be more than min.",
-                       .limit = "more than " + numberText(*range.min),
-                       .actual = numberText(*range.max)},
+    broken.push_back({invalidValue(max, "The value of max must be more than min.",
+                                   "more than " + numberText(*range.min), numberText(*range.max)),
                       {mode, min, max}});
   }
 }
@@ -64,25 +52,16 @@ void appendDepthRangeRules(const DepthRange& range, const std::string& pointer, 
 void appendPreviousRangeRules(const DepthRange& range, const std::string& pointer, std::vector<BrokenRule>& broken) {
   const std::string previous = pointer + "/previous";
   if (range.guardDistance && !range.previous) {
-    broken.push_back({{.code = ProblemCode::invalidValue,
-                       .pointer = pointer + "/guardDistance",
-                       .detail = "A guardDistance needs a previous range."},
-                      {previous}});
+    broken.push_back({invalidValue(pointer + "/guardDistance", "A guardDistance needs a previous range."), {previous}});
   }
   if (!range.previous) return;
   if (range.mode == DepthRangeMode::manual) {
-    broken.push_back({{.code = ProblemCode::invalidValue,
-                       .pointer = previous,
-                       .detail = "A previous range needs depthRange mode automatic.",
-                       .actual = "mode manual"},
+    broken.push_back({invalidValue(previous, "A previous range needs depthRange mode automatic.", "", "mode manual"),
                       {pointer + "/mode"}});
   }
   if (range.previous->near >= range.previous->far) {
-    broken.push_back({{.code = ProblemCode::invalidValue,
-                       .pointer = previous + "/far",
-                       .detail = "The value of far must be more than near.",
-                       .limit = "more than " + numberText(range.previous->near),
-                       .actual = numberText(range.previous->far)},
+    broken.push_back({invalidValue(previous + "/far", "The value of far must be more than near.",
+                                   "more than " + numberText(range.previous->near), numberText(range.previous->far)),
                       {previous}});
   }
 }
@@ -90,13 +69,11 @@ void appendPreviousRangeRules(const DepthRange& range, const std::string& pointe
 void appendFilterRules(const Filter& filter, const std::string& pointer, std::vector<BrokenRule>& broken) {
   if (!filter.radius || (filter.type != FilterType::hard && filter.type != FilterType::pcss)) return;
   const bool hard = filter.type == FilterType::hard;
-  broken.push_back({{.code = ProblemCode::invalidValue,
-                     .pointer = pointer + "/radius",
-                     .detail = hard ? "A hard shadow has no radius."
-                                    : "Filter pcss is as soft as the light's own size: angularDiameterDegrees or "
-                                      "radius of the light.",
-                     .limit = "filter type pcf, vsm, evsm or msm",
-                     .actual = std::string(spell(filter.type))},
+  broken.push_back({invalidValue(pointer + "/radius",
+                                 hard ? "A hard shadow has no radius."
+                                      : "Filter pcss is as soft as the light's own size: angularDiameterDegrees or "
+                                        "radius of the light.",
+                                 "filter type pcf, vsm, evsm or msm", std::string(spell(filter.type))),
                     {pointer + "/type"}});
 }
 
@@ -105,11 +82,10 @@ void appendBiasRules(const Bias& bias, const std::string& pointer, std::vector<B
   for (const auto& [value, name] : {std::pair(bias.depth, "depth"), std::pair(bias.slope, "slope"),
                                     std::pair(bias.normalOffsetScale, "normalOffsetScale")}) {
     if (!value) continue;
-    broken.push_back({{.code = ProblemCode::invalidValue,
-                       .pointer = pointer + "/" + name,
-                       .detail = "The bias value " + std::string(name) + " needs bias mode manual.",
-                       .actual = "mode automatic"},
-                      {pointer + "/mode"}});
+    broken.push_back(
+        {invalidValue(pointer + "/" + name, "The bias value " + std::string(name) + " needs bias mode manual.", "",
+                      "mode automatic"),
+         {pointer + "/mode"}});
   }
 }
 
@@ -123,11 +99,8 @@ int tileSide(ShadowSize size, const Atlas& atlas) {
 
 void appendAtlasRules(const Atlas& atlas, std::vector<BrokenRule>& broken) {
   if (atlas.baseSize <= atlas.size) return;
-  broken.push_back({{.code = ProblemCode::invalidValue,
-                     .pointer = "/atlas/baseSize",
-                     .detail = "The baseSize of a tile can't be more than the atlas's size.",
-                     .limit = "at most " + std::to_string(atlas.size),
-                     .actual = std::to_string(atlas.baseSize)},
+  broken.push_back({invalidValue("/atlas/baseSize", "The baseSize of a tile can't be more than the atlas's size.",
+                                 "at most " + std::to_string(atlas.size), std::to_string(atlas.baseSize)),
                     {"/atlas/size", "/atlas/baseSize"}});
 }
 
@@ -140,12 +113,10 @@ void appendShadowRules(const Shadow& shadow, const Atlas& atlas, const std::stri
   appendBiasRules(shadow.bias, pointer + "/bias", broken);
   const int side = tileSide(shadow.size.value_or(ShadowSize::Large), atlas);
   if (side > atlas.size && atlas.baseSize <= atlas.size) {
-    broken.push_back({{.code = ProblemCode::invalidValue,
-                       .pointer = pointer + "/size",
-                       .detail = "One tile of this size is larger than the atlas.",
-                       .limit = "at most " + std::to_string(atlas.size) + " texels",
-                       .actual = std::to_string(side) + " texels"},
-                      {pointer + "/size", "/atlas/size", "/atlas/baseSize"}});
+    broken.push_back(
+        {invalidValue(pointer + "/size", "One tile of this size is larger than the atlas.",
+                      "at most " + std::to_string(atlas.size) + " texels", std::to_string(side) + " texels"),
+         {pointer + "/size", "/atlas/size", "/atlas/baseSize"}});
   }
 }
 

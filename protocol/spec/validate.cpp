@@ -1,10 +1,10 @@
 #include "protocol/spec/validate.h"
 
 #include <algorithm>
+#include <string>
 
 #include "protocol/fields/field_checks.h"
 #include "protocol/spec/limits.h"
-#include "protocol/spec/rules.h"
 
 namespace gnomon {
 namespace {
@@ -41,22 +41,16 @@ void appendNodeRules(const std::vector<NodeOptions>& nodes, const std::string& l
     const std::string pointer = list + "/" + std::to_string(i);
     appendPlaceRules(nodes[i], pointer, broken);
     if (nodes[i].node) continue;
-    broken.push_back({{.code = ProblemCode::invalidValue,
-                       .pointer = pointer + "/node",
-                       .detail = "A node's index or name is needed.",
-                       .actual = "absent"},
-                      {pointer + "/node"}});
+    broken.push_back(
+        {invalidValue(pointer + "/node", "A node's index or name is needed.", "", "absent"), {pointer + "/node"}});
   }
 }
 
 void appendMotionRules(const FrameSpec& spec, std::vector<BrokenRule>& broken) {
   const bool shown = std::find(spec.views.begin(), spec.views.end(), View::motion) != spec.views.end();
   if (shown && !spec.motionFrom) {
-    broken.push_back({{.code = ProblemCode::invalidValue,
-                       .pointer = "/motionFrom",
-                       .detail = "The view motion needs an earlier moment.",
-                       .limit = "camera, animation or nodes",
-                       .actual = "absent"},
+    broken.push_back({invalidValue("/motionFrom", "The view motion needs an earlier moment.",
+                                   "camera, animation or nodes", "absent"),
                       {"/views", "/motionFrom"}});
   }
   if (!spec.motionFrom) return;
@@ -69,11 +63,43 @@ void appendMotionRules(const FrameSpec& spec, std::vector<BrokenRule>& broken) {
     const NodeOptions& node = (*from.nodes)[i];
     if (!node.visible && !node.castShadow && !node.receiveShadow && !node.layers) continue;
     const std::string pointer = "/motionFrom/nodes/" + std::to_string(i);
-    broken.push_back({{.code = ProblemCode::invalidValue,
-                       .pointer = pointer,
-                       .detail = "An earlier moment has places of nodes, and no switches.",
-                       .limit = "matrix | translation, rotation, scale"},
+    broken.push_back({invalidValue(pointer, "An earlier moment has places of nodes, and no switches.",
+                                   "matrix | translation, rotation, scale"),
                       {pointer}});
+  }
+}
+
+void appendBoxRules(const VolumeBox& box, const std::string& pointer, std::vector<BrokenRule>& broken) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (box.min[axis] < box.max[axis]) continue;
+    const std::string at = "/" + std::to_string(axis);
+    broken.push_back({invalidValue(pointer + "/max" + at, "A box needs an inside.",
+                                   "more than " + numberText(box.min[axis]), numberText(box.max[axis])),
+                      {pointer + "/min", pointer + "/max"}});
+  }
+}
+
+void appendVolumeRules(const VolumeOptions& volume, const std::string& pointer, std::vector<BrokenRule>& broken) {
+  const auto require = [&](bool given, const char* name, const char* detail) {
+    if (!given) broken.push_back({invalidValue(pointer + name, detail, "", "absent"), {pointer + name}});
+  };
+  require(!volume.file.empty(), "/file", "A volume needs the name of a file.");
+  require(!volume.transferFunction.empty(), "/transferFunction", "A volume needs a transfer function.");
+  const bool placedTwice = volume.box && volume.matrix;
+  if (placedTwice || !(volume.box || volume.matrix || volume.node)) {
+    broken.push_back(
+        {invalidValue(pointer, "A volume needs a box, a matrix or a node, and not both a box and a matrix.",
+                      "box | matrix, at a node or not", placedTwice ? "both" : "none of them"),
+         {pointer + "/box", pointer + "/matrix"}});
+  }
+  if (volume.box) appendBoxRules(*volume.box, pointer + "/box", broken);
+  for (std::size_t i = 1; i < volume.transferFunction.size(); ++i) {
+    const double before = volume.transferFunction[i - 1].value, value = volume.transferFunction[i].value;
+    if (before < value) continue;
+    const std::string at = pointer + "/transferFunction/" + std::to_string(i) + "/value";
+    broken.push_back({invalidValue(at, "The values of a transfer function ascend.", "more than " + numberText(before),
+                                   numberText(value)),
+                      {at, pointer + "/transferFunction/" + std::to_string(i - 1) + "/value"}});
   }
 }
 
@@ -81,21 +107,16 @@ void appendDebugRules(const FrameSpec& spec, std::vector<BrokenRule>& broken) {
   if (!spec.debug.light || !spec.lights) return;
   const int count = static_cast<int>(spec.lights->size());
   if (*spec.debug.light < count) return;
-  broken.push_back({{.code = ProblemCode::invalidValue,
-                     .pointer = "/debug/light",
-                     .detail = "The frame has no light of that index.",
-                     .limit = count == 0 ? "no lights" : "0.." + std::to_string(count - 1),
-                     .actual = std::to_string(*spec.debug.light)},
-                    {"/lights"}});
+  broken.push_back(
+      {invalidValue("/debug/light", "The frame has no light of that index.",
+                    count == 0 ? "no lights" : "0.." + std::to_string(count - 1), std::to_string(*spec.debug.light)),
+       {"/lights"}});
 }
 
 void appendQualityRules(const Quality& quality, std::vector<BrokenRule>& broken) {
   if (quality.maxError.has_value() != quality.maxMilliseconds.has_value()) return;
-  broken.push_back({{.code = ProblemCode::invalidValue,
-                     .pointer = "/quality",
-                     .detail = "A target needs exactly one of maxError and maxMilliseconds.",
-                     .limit = "maxError | maxMilliseconds",
-                     .actual = quality.maxError ? "both" : "neither"},
+  broken.push_back({invalidValue("/quality", "A target needs exactly one of maxError and maxMilliseconds.",
+                                 "maxError | maxMilliseconds", quality.maxError ? "both" : "neither"),
                     {"/quality"}});
 }
 

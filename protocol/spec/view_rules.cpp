@@ -4,8 +4,9 @@
 #include <string_view>
 
 #include "protocol/fields/field_checks.h"
-#include "protocol/spec/rules.h"
+#include "protocol/spec/enum_rows.h"
 #include "protocol/spec/traits.h"
+#include "protocol/spec/validate.h"
 
 namespace gnomon {
 namespace {
@@ -34,10 +35,6 @@ std::string vecText(const Vec3& v) {
   return numberText(v[0]) + " " + numberText(v[1]) + " " + numberText(v[2]);
 }
 
-Problem invalid(std::string pointer, std::string detail, std::string limit = "", std::string actual = "") {
-  return {ProblemCode::invalidValue, std::move(pointer), std::move(detail), std::move(limit), std::move(actual)};
-}
-
 /// Of each group of alternatives at most one is given.
 template <class T>
 void appendAlternatives(const T& value, const std::string& pointer, std::vector<BrokenRule>& broken) {
@@ -52,7 +49,7 @@ void appendAlternatives(const T& value, const std::string& pointer, std::vector<
       if (field.type->size(field.member(&value)) > 0) given.emplace_back(field.inlined ? "" : field.name);
     }
     for (std::size_t i = 1; i < given.size(); ++i) {
-      broken.push_back({invalid(pointer + "/" + given[i], "Only one of these may be given.", names), {}});
+      broken.push_back({invalidValue(pointer + "/" + given[i], "Only one of these may be given.", names), {}});
     }
   }
 }
@@ -61,18 +58,18 @@ void appendLookAtRules(const EyeTarget& lookAt, const std::string& camera, std::
   const Vec3 view = minus(lookAt.target, lookAt.eye);
   if (length(view) < kShortest) {
     broken.push_back(
-        {invalid(camera + "/target", "The target is where the eye is, so there is no direction to look in.",
-                 "any place but the eye", vecText(lookAt.target)),
+        {invalidValue(camera + "/target", "The target is where the eye is, so there is no direction to look in.",
+                      "any place but the eye", vecText(lookAt.target)),
          {camera + "/eye", camera + "/target"}});
     return;
   }
   if (length(lookAt.up) < kShortest) {
     broken.push_back(
-        {invalid(camera + "/up", "This direction is zero.", "any direction but the view's", vecText(lookAt.up)),
+        {invalidValue(camera + "/up", "This direction is zero.", "any direction but the view's", vecText(lookAt.up)),
          {camera + "/up"}});
   } else if (length(cross(unit(view), unit(lookAt.up))) < kParallel) {
-    broken.push_back({invalid(camera + "/up", "The direction up is parallel to the direction of view.",
-                              "any direction but the view's", vecText(lookAt.up)),
+    broken.push_back({invalidValue(camera + "/up", "The direction up is parallel to the direction of view.",
+                                   "any direction but the view's", vecText(lookAt.up)),
                       {camera + "/eye", camera + "/target", camera + "/up"}});
   }
 }
@@ -96,25 +93,25 @@ void appendPoseRules(const CameraPose& pose, const std::string& camera, std::vec
   const Rows4& rows = pose.worldFromCamera;
   if (rows[3] != std::array<double, 4>{0, 0, 0, 1}) {
     broken.push_back(
-        {invalid(matrix + "/3", "The last row of a pose is 0 0 0 1. A matrix that lists columns has to be transposed.",
-                 "0 0 0 1",
-                 numberText(rows[3][0]) + " " + numberText(rows[3][1]) + " " + numberText(rows[3][2]) + " " +
-                     numberText(rows[3][3])),
+        {invalidValue(matrix + "/3",
+                      "The last row of a pose is 0 0 0 1. A matrix that lists columns has to be transposed.", "0 0 0 1",
+                      numberText(rows[3][0]) + " " + numberText(rows[3][1]) + " " + numberText(rows[3][2]) + " " +
+                          numberText(rows[3][3])),
          {matrix}});
   }
   if (!isRotation(rows)) {
-    broken.push_back({invalid(matrix,
-                              "The upper left of a pose is a rotation: axes of length 1, perpendicular to each "
-                              "other, not mirrored.",
-                              "a rotation within 0.001", "no rotation"),
+    broken.push_back({invalidValue(matrix,
+                                   "The upper left of a pose is a rotation: axes of length 1, perpendicular to each "
+                                   "other, not mirrored.",
+                                   "a rotation within 0.001", "no rotation"),
                       {matrix}});
   }
 }
 
 void appendNearFar(double near, double far, const std::string& lens, std::vector<BrokenRule>& broken) {
   if (near < far) return;
-  broken.push_back({invalid(lens + "/far", "The value of far must be more than near.", "more than " + numberText(near),
-                            numberText(far)),
+  broken.push_back({invalidValue(lens + "/far", "The value of far must be more than near.",
+                                 "more than " + numberText(near), numberText(far)),
                     {lens + "/near", lens + "/far"}});
 }
 
@@ -123,31 +120,33 @@ void appendNearFar(double near, double far, const std::string& lens, std::vector
 void appendAnimationRules(const AnimationMoment& moment, const std::string& pointer, std::vector<BrokenRule>& broken) {
   appendAlternatives(moment, pointer, broken);
   if (moment.index || moment.name || moment.timeSeconds == 0) return;
-  broken.push_back({invalid(pointer, "A time needs the index or the name of an animation.", "index | name", "neither"),
-                    {pointer + "/index", pointer + "/name"}});
+  broken.push_back(
+      {invalidValue(pointer, "A time needs the index or the name of an animation.", "index | name", "neither"),
+       {pointer + "/index", pointer + "/name"}});
 }
 
 void appendPlaceRules(const NodeOptions& node, const std::string& pointer, std::vector<BrokenRule>& broken) {
   if (node.matrix) {
     if (node.translation || node.rotation || node.scale) {
-      broken.push_back({invalid(pointer + "/matrix", "A node has a matrix, or a translation, rotation and scale.",
-                                "matrix | translation, rotation, scale", "both"),
+      broken.push_back({invalidValue(pointer + "/matrix", "A node has a matrix, or a translation, rotation and scale.",
+                                     "matrix | translation, rotation, scale", "both"),
                         {pointer + "/matrix", pointer + "/translation", pointer + "/rotation", pointer + "/scale"}});
     }
     const auto& m = *node.matrix;
     if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
       broken.push_back(
-          {invalid(pointer + "/matrix", "The matrix is not affine: its last row, every fourth number, is 0 0 0 1.",
-                   "0 0 0 1",
-                   numberText(m[3]) + " " + numberText(m[7]) + " " + numberText(m[11]) + " " + numberText(m[15])),
+          {invalidValue(pointer + "/matrix", "The matrix is not affine: its last row, every fourth number, is 0 0 0 1.",
+                        "0 0 0 1",
+                        numberText(m[3]) + " " + numberText(m[7]) + " " + numberText(m[11]) + " " + numberText(m[15])),
            {pointer + "/matrix"}});
     }
   }
   if (node.rotation) {
     const auto& q = *node.rotation;
     if (std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3])) < kShortest) {
-      broken.push_back({invalid(pointer + "/rotation", "This quaternion is zero.", "any length but zero", "0 0 0 0"),
-                        {pointer + "/rotation"}});
+      broken.push_back(
+          {invalidValue(pointer + "/rotation", "This quaternion is zero.", "any length but zero", "0 0 0 0"),
+           {pointer + "/rotation"}});
     }
   }
 }
@@ -174,12 +173,12 @@ void appendLightRules(const Light& light, std::size_t index, std::vector<BrokenR
 
   const auto require = [&](bool given, const char* name, std::vector<std::string> reads, const std::string& detail) {
     reads.push_back(pointer + "/type");
-    if (!given) broken.push_back({invalid(pointer + "/" + name, detail, "", "absent"), std::move(reads)});
+    if (!given) broken.push_back({invalidValue(pointer + "/" + name, detail, "", "absent"), std::move(reads)});
   };
   const auto forbid = [&](bool given, const char* name) {
     if (!given) return;
     broken.push_back(
-        {invalid(pointer + "/" + name, "A light of type " + type + " has no " + name + "."), {pointer + "/type"}});
+        {invalidValue(pointer + "/" + name, "A light of type " + type + " has no " + name + "."), {pointer + "/type"}});
   };
 
   appendAlternatives(light, pointer, broken);
@@ -206,14 +205,15 @@ void appendLightRules(const Light& light, std::size_t index, std::vector<BrokenR
     forbid(light.angularDiameterDegrees.has_value(), "angularDiameterDegrees");
   }
   if (light.direction && length(*light.direction) < kShortest) {
-    broken.push_back({invalid(pointer + "/direction", "This direction is zero.", "any direction of some length",
-                              vecText(*light.direction)),
+    broken.push_back({invalidValue(pointer + "/direction", "This direction is zero.", "any direction of some length",
+                                   vecText(*light.direction)),
                       {pointer + "/direction"}});
   }
   if (light.innerConeDegrees >= light.outerConeDegrees) {
-    broken.push_back({invalid(pointer + "/innerConeDegrees", "The inner cone must be narrower than the outer.",
-                              "less than " + numberText(light.outerConeDegrees), numberText(light.innerConeDegrees)),
-                      {pointer + "/innerConeDegrees", pointer + "/outerConeDegrees"}});
+    broken.push_back(
+        {invalidValue(pointer + "/innerConeDegrees", "The inner cone must be narrower than the outer.",
+                      "less than " + numberText(light.outerConeDegrees), numberText(light.innerConeDegrees)),
+         {pointer + "/innerConeDegrees", pointer + "/outerConeDegrees"}});
   }
 }
 

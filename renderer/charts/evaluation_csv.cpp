@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/fields/field_checks.h"
-#include "protocol/fields/field_encode.h"
-#include "protocol/report/error_metrics.h"
+#include "protocol/fields/field_codec.h"
+#include "protocol/report/frame_report.h"
 #include "renderer/charts/charts.h"
 
 namespace gnomon {
@@ -33,7 +33,7 @@ std::vector<std::string> metricPointers() {
   all.predicted.emplace();
   all.predicted->edgeDisplacement.emplace();
   all.predicted->edgeLength.emplace();
-  const Json flat = encodeValue(all).flatten();
+  const Json flat = toJson(all).flatten();
   std::vector<std::string> pointers;
   for (const auto& [pointer, value] : flat.items()) pointers.push_back(pointer);
   return pointers;
@@ -85,7 +85,7 @@ std::string evaluationCsv(const EvaluationReport& report) {
     fields.push_back(row.milliseconds ? numberText(*row.milliseconds) : "");
     for (const std::string& stage : stages) fields.push_back(stageText(row, stage));
     fields.push_back(row.metrics ? std::to_string(row.memoryBytes) : "");
-    const Json values = row.metrics ? encodeValue(*row.metrics) : Json::object();
+    const Json values = row.metrics ? toJson(*row.metrics) : Json::object();
     for (const std::string& metric : metrics) {
       const Json::json_pointer pointer(metric);
       fields.push_back(values.contains(pointer) ? values[pointer].dump() : "");

@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "protocol/bake/bake_file_type.h"
+#include "protocol/bake/bake.h"
 #include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
-#include "protocol/report/sensor_range.h"
+#include "protocol/spec/output_options.h"
 #include "renderer/core/stop.h"
 #include "renderer/frame/frame.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "protocol/bake/bake_json.h"
+#include "protocol/bake/bake.h"
 #include "protocol/base/elapsed.h"
 #include "renderer/core/collect.h"
 #include "renderer/frame/make_report.h"

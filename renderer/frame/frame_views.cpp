@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "protocol/spec/format_traits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/core/light.h"
 #include "renderer/device/view_image.h"
 #include "renderer/frame/geometry_views.h"

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "protocol/base/result.h"
-#include "protocol/report/error_metrics.h"
-#include "protocol/spec/format_traits.h"
+#include "protocol/report/frame_report.h"
+#include "protocol/spec/traits.h"
 #include "renderer/device/device.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/geometry_views.h"

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "protocol/spec/format_traits.h"
+#include "protocol/spec/traits.h"
 #include "renderer/core/camera_view.h"
 #include "renderer/image/image.h"
 #include "renderer/rays/trace.h"

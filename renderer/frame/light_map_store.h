@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "protocol/bake/bake_report.h"
+#include "protocol/bake/bake.h"
 #include "protocol/base/bytes.h"
 
 /// Part of the door: see render.h.

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "protocol/spec/frame_lights.h"
 #include "protocol/spec/traits.h"
-#include "protocol/spec/unused_settings.h"
 #include "renderer/core/light.h"
 #include "renderer/shadow/filter_kernel.h"
 

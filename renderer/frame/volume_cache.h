@@ -6,7 +6,7 @@
 #include "protocol/base/bytes.h"
 #include "protocol/base/lru.h"
 #include "protocol/base/result.h"
-#include "protocol/spec/volume_options.h"
+#include "protocol/spec/scene_options.h"
 #include "renderer/resolve/resolve_nodes.h"
 #include "renderer/volume/medium.h"
 #include "renderer/volume/volume_light.h"

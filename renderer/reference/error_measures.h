@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "protocol/report/error_metrics.h"
+#include "protocol/report/frame_report.h"
 #include "renderer/reference/reference.h"
 
 namespace gnomon {

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "protocol/base/result.h"
+#include "protocol/spec/frame_lights.h"
 #include "protocol/spec/limits.h"
-#include "protocol/spec/shadow_volume_places.h"
 #include "protocol/spec/traits.h"
 #include "renderer/resolve/plan_input.h"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "protocol/cost/shadow_cost.h"
+#include "protocol/cost/frame_cost.h"
 #include "protocol/spec/traits.h"
 #include "renderer/resolve/resolve_frame.h"
 #include "renderer/shadow/shadow_plan.h"

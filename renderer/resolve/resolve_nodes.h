@@ -7,7 +7,6 @@
 
 #include "protocol/base/result.h"
 #include "protocol/spec/scene_options.h"
-#include "protocol/spec/volume_options.h"
 #include "renderer/scene/node_switches.h"
 #include "renderer/scene/scene.h"
 

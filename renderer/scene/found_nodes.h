@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "protocol/base/result.h"
-#include "protocol/report/node_list.h"
+#include "protocol/report/replies.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {

@@ -72,7 +72,7 @@ struct EdgeOnTexels {
 };
 
 /// Pixels: the mean area between where the map puts the edge and where it is, of each pixel of its length, as far as
-/// metrics count it as misplaced and not as wrong: within 2 pixels of the edge's own pixels (error_metrics.h). 0 where
+/// metrics count it as misplaced and not as wrong: within 2 pixels of the edge's own pixels (frame_report.h). 0 where
 /// anything is not finite.
 double expectedDisplacement(const EdgeOnTexels& edge, const MapReading& reading);
 

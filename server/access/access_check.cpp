@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "protocol/access/signed_target.h"
+#include "protocol/access/access_key.h"
 #include "protocol/base/text.h"
 
 namespace gnomon {

@@ -1,10 +1,9 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "protocol/bake/bake_file_type.h"
-#include "protocol/bake/bake_json.h"
+#include "protocol/bake/bake.h"
 #include "protocol/base/text.h"
-#include "protocol/evaluation/evaluation_json.h"
+#include "protocol/evaluation/evaluation.h"
 #include "protocol/json/json_codec.h"
 #include "server/handlers/event_reply.h"
 #include "server/handlers/handlers.h"

@@ -6,8 +6,8 @@
 
 #include "protocol/base/result.h"
 #include "protocol/cost/frame_cost.h"
-#include "protocol/report/sensor_range.h"
 #include "protocol/spec/frame_spec.h"
+#include "protocol/spec/output_options.h"
 #include "server/http/multipart.h"
 
 /// The form that Drake's RenderEngineGltfClient posts (its "glTF Render Client-Server API").

@@ -3,7 +3,6 @@
 
 #include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
-#include "protocol/json/query_codec.h"
 #include "server/frames/reply_cache.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/work.h"

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/text.h"
-#include "protocol/job/job_json.h"
+#include "protocol/job/job.h"
 #include "server/handlers/event_reply.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/job_reply.h"

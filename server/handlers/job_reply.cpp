@@ -5,7 +5,7 @@
 #include <ctime>
 #include <thread>
 
-#include "protocol/sequence/carry.h"
+#include "protocol/sequence/sequence.h"
 
 namespace gnomon {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "protocol/base/lru.h"
-#include "protocol/sequence/sequence_json.h"
+#include "protocol/sequence/sequence.h"
 #include "server/handlers/handlers.h"
 #include "server/system/file_descriptor.h"
 

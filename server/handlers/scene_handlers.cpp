@@ -1,9 +1,8 @@
 #include <nlohmann/json.hpp>
 
-#include "protocol/base/scene_id.h"
+#include "protocol/base/scene_bundle.h"
 #include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
-#include "protocol/json/node_json.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/work.h"
 #include "server/http/reply.h"

@@ -7,8 +7,8 @@
 
 #include "protocol/base/bytes.h"
 #include "protocol/base/elapsed.h"
-#include "protocol/sequence/sequence_json.h"
-#include "protocol/spec/format_traits.h"
+#include "protocol/sequence/sequence.h"
+#include "protocol/spec/traits.h"
 #include "server/handlers/event_reply.h"
 
 namespace gnomon {

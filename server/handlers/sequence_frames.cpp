@@ -8,8 +8,7 @@
 
 #include "protocol/base/elapsed.h"
 #include "protocol/json/json_codec.h"
-#include "protocol/sequence/carry.h"
-#include "protocol/sequence/video_frames.h"
+#include "protocol/sequence/sequence.h"
 #include "server/system/file_descriptor.h"
 #include "server/system/no_thread.h"
 

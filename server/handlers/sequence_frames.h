@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "protocol/cost/frame_cost.h"
-#include "protocol/sequence/sequence_json.h"
+#include "protocol/sequence/sequence.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/work.h"
 #include "server/system/byte_budget.h"

@@ -4,9 +4,8 @@
 
 #include "protocol/base/text.h"
 #include "protocol/cost/frame_cost.h"
-#include "protocol/job/job_json.h"
-#include "protocol/sequence/sequence_json.h"
-#include "protocol/sequence/video_frames.h"
+#include "protocol/job/job.h"
+#include "protocol/sequence/sequence.h"
 #include "protocol/spec/traits.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/job_reply.h"

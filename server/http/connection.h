@@ -18,7 +18,7 @@ namespace gnomon {
 struct RequestHandler {
   BodyRule body;
   Scope scope = Scope::none;   ///< what a key must allow, where the server has keys
-  bool takesSignature = false; ///< a signed address does instead of a key (signed_target.h)
+  bool takesSignature = false; ///< a signed address does instead of a key (access_key.h)
   std::string route{};         ///< its name for metrics: one of a fixed few, whatever clients send
   bool isProbe = false;        ///< answered however busy everything else is: it reads a few atomics and returns
 

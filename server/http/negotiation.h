@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "protocol/base/result.h"
-#include "protocol/spec/format_traits.h"
+#include "protocol/spec/traits.h"
 #include "server/wire/frame_form.h"
 
 namespace gnomon {

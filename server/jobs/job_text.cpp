@@ -2,26 +2,24 @@
 
 #include <nlohmann/json.hpp>
 
-#include "protocol/fields/field_decode.h"
-#include "protocol/fields/field_encode.h"
+#include "protocol/fields/field_codec.h"
 #include "protocol/fields/type_tables.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/json/problem_rows.h"
-#include "protocol/sequence/sequence_json.h"
+#include "protocol/sequence/sequence.h"
 #include "server/wire/sequence_news.h"
 
 namespace gnomon {
 
 template <>
-inline constexpr auto kRows<FrameNote> =
-    rows("FrameNote", "All about a drawn frame but its pictures.",
-         field("contentKey", &FrameNote::contentKey, {.says = "What the pictures depend on."}),
-         field("carried", &FrameNote::carried, {.says = "Of this frame alone."}),
-         field("warnings", &FrameNote::warnings, {.says = "Of its report."}),
-         field("stages", &FrameNote::stages, {.says = "Time of each stage.", .unit = "milliseconds"}),
-         field("milliseconds", &FrameNote::milliseconds, {.says = "Time of all.", .unit = "milliseconds"}),
-         field("pictures", &FrameNote::pictures, {.says = "In the order of their bytes."}));
-static_assert(kRowsAreComplete<FrameNote>);
+inline constexpr auto kRows<FrameNote> = rows("FrameNote", "All about a drawn frame but its pictures.",
+                                              field<&FrameNote::contentKey>("What the pictures depend on."),
+                                              field<&FrameNote::carried>("Of this frame alone."),
+                                              field<&FrameNote::warnings>("Of its report."),
+                                              field<&FrameNote::stages>("Time of each stage.",
+                                                                        {.unit = "milliseconds"}),
+                                              field<&FrameNote::milliseconds>("Time of all.", {.unit = "milliseconds"}),
+                                              field<&FrameNote::pictures>("In the order of their bytes."));
 
 namespace {
 
@@ -42,17 +40,16 @@ std::optional<Value> readValue(std::string_view text) {
 
 template <>
 inline constexpr auto kRows<ProblemsText> = rows("ProblemsText", "Problems.",
-                                                 field("problems", &ProblemsText::problems, {.says = "All of them."}));
-static_assert(kRowsAreComplete<ProblemsText>);
+                                                 field<&ProblemsText::problems>("All of them."));
 
 template const ValueType& typeOf<FrameNote>();
 template const ValueType& typeOf<ProblemsText>();
 
 std::string textOf(const FrameNote& note) {
-  return jsonText(encodeValue(note));
+  return jsonText(toJson(note));
 }
 std::string textOf(const Problems& problems) {
-  return jsonText(encodeValue(ProblemsText{problems}));
+  return jsonText(toJson(ProblemsText{problems}));
 }
 std::string textOf(const Carried& carried) {
   return jsonText(toJson(carried));

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "protocol/sequence/carry.h"
+#include "protocol/sequence/sequence.h"
+#include "server/jobs/job_queue.h"
 
 namespace gnomon {
 namespace {

@@ -6,7 +6,8 @@
 
 #include "protocol/fields/fields.h"
 #include "protocol/job/job_rows.h"
-#include "protocol/sequence/carry.h"
+#include "protocol/sequence/sequence.h"
+#include "server/jobs/job_queue.h"
 #include "server/jobs/job_scripts.h"
 #include "server/jobs/job_text.h"
 #include "server/system/clock.h"

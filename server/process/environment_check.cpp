@@ -5,7 +5,6 @@
 #include <unistd.h>
 #include <utility>
 
-#include "protocol/base/nearest_name.h"
 #include "protocol/base/text.h"
 
 namespace gnomon {

@@ -8,7 +8,6 @@
 #include <system_error>
 
 #include "protocol/base/config_text.h"
-#include "protocol/base/nearest_name.h"
 #include "protocol/base/text.h"
 #include "server/process/serve_option_rows.h"
 #include "server/scenes/whole_file.h"

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "protocol/base/bytes.h"
-#include "protocol/base/scene_id.h"
+#include "protocol/base/scene_bundle.h"
 #include "server/scenes/store_quota.h"
 #include "server/scenes/whole_file.h"
 #include "server/system/log.h"

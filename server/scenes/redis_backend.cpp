@@ -4,7 +4,7 @@
 #include <charconv>
 #include <functional>
 
-#include "protocol/base/scene_id.h"
+#include "protocol/base/scene_bundle.h"
 #include "server/scenes/redis_scripts.h"
 #include "server/system/log.h"
 #include "server/wire/bundle.h"

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "protocol/base/scene_id.h"
+#include "protocol/base/scene_bundle.h"
 #include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
 #include "server/scenes/directory_backend.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "protocol/base/scene_id.h"
+#include "protocol/base/scene_bundle.h"
 #include "server/redis/redis.h"
 #include "server/system/file_descriptor.h"
 #include "server/wire/bundle.h"

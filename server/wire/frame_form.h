@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "protocol/spec/format_traits.h"
+#include "protocol/spec/traits.h"
 
 namespace gnomon {
 

@@ -10,136 +10,113 @@ namespace gnomon {
 
 template <>
 inline constexpr std::array kSpellings<Backend>{
-    spelling(Backend::auto_, "auto"),
-    spelling(Backend::egl, "egl"),
-    spelling(Backend::osmesa, "osmesa"),
+    spelling<Backend::auto_>(),
+    spelling<Backend::egl>(),
+    spelling<Backend::osmesa>(),
 };
-static_assert(spellsAll<Backend>());
 
 template <>
 inline constexpr std::array kSpellings<OrderKind>{
-    spelling(OrderKind::load, "load"),   spelling(OrderKind::frame, "frame"),
-    spelling(OrderKind::plan, "plan"),   spelling(OrderKind::evaluation, "evaluation"),
-    spelling(OrderKind::bake, "bake"),   spelling(OrderKind::bakeFile, "bakeFile"),
-    spelling(OrderKind::nodes, "nodes"), spelling(OrderKind::sequenceFrame, "sequenceFrame"),
+    spelling<OrderKind::load>(),       spelling<OrderKind::frame>(),         spelling<OrderKind::plan>(),
+    spelling<OrderKind::evaluation>(), spelling<OrderKind::bake>(),          spelling<OrderKind::bakeFile>(),
+    spelling<OrderKind::nodes>(),      spelling<OrderKind::sequenceFrame>(),
 };
-static_assert(spellsAll<OrderKind>());
 
 template <>
 inline constexpr auto kRows<WorkerOptions> =
-    rows("WorkerOptions", "How a worker draws and what it may keep.",
-         field("device", &WorkerOptions::device, {.says = "What draws."}),
-         field("backend", &WorkerOptions::backend, {.says = "Graphics context."}),
-         field("requireGpu", &WorkerOptions::requireGpu, {.says = "Refuse to start without a GPU."}),
-         field("gpuSceneBytes", &WorkerOptions::gpuSceneBytes, {.says = "Scenes on the device.", .unit = "bytes"}),
-         field("tileCacheBytes", &WorkerOptions::tileCacheBytes, {.says = "Shadow atlases.", .unit = "bytes"}),
-         field("tracedSceneBytes", &WorkerOptions::tracedSceneBytes, {.says = "Scenes for rays.", .unit = "bytes"}),
-         field("lightMapBytes", &WorkerOptions::lightMapBytes, {.says = "Baked light maps.", .unit = "bytes"}),
-         field("volumeBytes", &WorkerOptions::volumeBytes, {.says = "Grids and light of volumes.", .unit = "bytes"}),
-         field("sceneMemoryBytes", &WorkerOptions::sceneMemoryBytes, {.says = "Loaded scenes.", .unit = "bytes"}),
-         field("frameMemoryBytes", &WorkerOptions::frameMemoryBytes, {.says = "Pictures.", .unit = "bytes"}),
-         field("maxSceneBytes", &WorkerOptions::maxSceneBytes, {.says = "The largest bundle.", .unit = "bytes"}),
-         field("memoryBytes", &WorkerOptions::memoryBytes, {.says = "The whole process.", .unit = "bytes"}),
-         field("keepsLightMaps", &WorkerOptions::keepsLightMaps, {.says = "The front stores light maps."}));
-static_assert(kRowsAreComplete<WorkerOptions>);
+    rows("WorkerOptions", "How a worker draws and what it may keep.", field<&WorkerOptions::device>("What draws."),
+         field<&WorkerOptions::backend>("Graphics context."),
+         field<&WorkerOptions::requireGpu>("Refuse to start without a GPU."),
+         field<&WorkerOptions::gpuSceneBytes>("Scenes on the device.", {.unit = "bytes"}),
+         field<&WorkerOptions::tileCacheBytes>("Shadow atlases.", {.unit = "bytes"}),
+         field<&WorkerOptions::tracedSceneBytes>("Scenes for rays.", {.unit = "bytes"}),
+         field<&WorkerOptions::lightMapBytes>("Baked light maps.", {.unit = "bytes"}),
+         field<&WorkerOptions::volumeBytes>("Grids and light of volumes.", {.unit = "bytes"}),
+         field<&WorkerOptions::sceneMemoryBytes>("Loaded scenes.", {.unit = "bytes"}),
+         field<&WorkerOptions::frameMemoryBytes>("Pictures.", {.unit = "bytes"}),
+         field<&WorkerOptions::maxSceneBytes>("The largest bundle.", {.unit = "bytes"}),
+         field<&WorkerOptions::memoryBytes>("The whole process.", {.unit = "bytes"}),
+         field<&WorkerOptions::keepsLightMaps>("The front stores light maps."));
 
 template <>
 inline constexpr auto kRows<SensorRange> = rows("SensorRange", "What a depth sensor can measure.",
-                                                field("min", &SensorRange::min, {.says = "The nearest.", .unit = "m"}),
-                                                field("max", &SensorRange::max,
-                                                      {.says = "The farthest.", .unit = "m"}));
+                                                field<&SensorRange::min>("The nearest.", {.unit = "m"}),
+                                                field<&SensorRange::max>("The farthest.", {.unit = "m"}));
 
 template <>
-inline constexpr auto kRows<Order> =
-    rows("Order", "Work for a worker.", field("number", &Order::number, {.says = "Names it."}),
-         field("kind", &Order::kind, {.says = "What is wanted."}),
-         field("scene", &Order::scene, {.says = "The scene's id."}),
-         field("isStored", &Order::isStored, {.says = "The bundle comes from a disk."}),
-         field("strict", &Order::strict, {.says = "What violates glTF is refused."}),
-         field("milliseconds", &Order::milliseconds, {.says = "Until its deadline.", .unit = "milliseconds"}),
-         field("queuedMilliseconds", &Order::queuedMilliseconds, {.says = "That it waited.", .unit = "milliseconds"}),
-         field("mediaType", &Order::mediaType, {.says = "Of the result."}),
-         field("boundary", &Order::boundary, {.says = "Between the parts of a multipart result."}),
-         field("light", &Order::light, {.says = "Index of the light of a bakeFile."}),
-         field("traceId", &Order::traceId, {.says = "Of the request, for the log."}),
-         field("depthRange", &Order::depthRange, {.says = "Of a sensor that sees depths."}),
-         field("labels", &Order::labels, {.says = "Colors of materials are wanted."}));
-static_assert(kRowsAreComplete<Order>);
+inline constexpr auto kRows<Order> = rows(
+    "Order", "Work for a worker.", field<&Order::number>("Names it."), field<&Order::kind>("What is wanted."),
+    field<&Order::scene>("The scene's id."), field<&Order::isStored>("The bundle comes from a disk."),
+    field<&Order::strict>("What violates glTF is refused."),
+    field<&Order::milliseconds>("Until its deadline.", {.unit = "milliseconds"}),
+    field<&Order::queuedMilliseconds>("That it waited.", {.unit = "milliseconds"}),
+    field<&Order::mediaType>("Of the result."), field<&Order::boundary>("Between the parts of a multipart result."),
+    field<&Order::light>("Index of the light of a bakeFile."), field<&Order::traceId>("Of the request, for the log."),
+    field<&Order::depthRange>("Of a sensor that sees depths."),
+    field<&Order::labels>("Colors of materials are wanted."));
 
 template <>
-inline constexpr auto kRows<Cancel> = rows("Cancel", "Cancels an order.",
-                                           field("number", &Cancel::number, {.says = "The order."}));
+inline constexpr auto kRows<Cancel> = rows("Cancel", "Cancels an order.", field<&Cancel::number>("The order."));
 
 template <>
-inline constexpr auto kRows<Forget> = rows("Forget", "A scene was deleted.",
-                                           field("scene", &Forget::scene, {.says = "Its id."}));
+inline constexpr auto kRows<Forget> = rows("Forget", "A scene was deleted.", field<&Forget::scene>("Its id."));
 
 template <>
 inline constexpr auto kRows<LightMapFound> = rows("LightMapFound", "Answers a request.",
-                                                  field("number", &LightMapFound::number, {.says = "The request."}));
+                                                  field<&LightMapFound::number>("The request."));
 
 template <>
 inline constexpr auto kRows<ToWorker> = rows("ToWorker", "A message to a worker.",
-                                             field("start", &ToWorker::start, {.says = "The first."}),
-                                             field("order", &ToWorker::order, {.says = "Work."}),
-                                             field("cancel", &ToWorker::cancel, {.says = "Work that is cancelled."}),
-                                             field("forget", &ToWorker::forget, {.says = "A deleted scene."}),
-                                             field("lightMap", &ToWorker::lightMap, {.says = "An answered request."}));
-static_assert(kRowsAreComplete<ToWorker>);
+                                             field<&ToWorker::start>("The first."), field<&ToWorker::order>("Work."),
+                                             field<&ToWorker::cancel>("Work that is cancelled."),
+                                             field<&ToWorker::forget>("A deleted scene."),
+                                             field<&ToWorker::lightMap>("An answered request."));
 
 template <>
-inline constexpr auto kRows<Outcome> =
-    rows("Outcome", "The result of an order.", field("number", &Outcome::number, {.says = "The order."}),
-         field("problems", &Outcome::problems, {.says = "Why there is no result."}),
-         field("retryAfterSeconds", &Outcome::retryAfterSeconds, {.says = "When to ask again.", .unit = "seconds"}),
-         field("damaged", &Outcome::damaged, {.says = "The bundle is not the one that the id names."}),
-         field("contentType", &Outcome::contentType, {.says = "Of the result."}),
-         field("stages", &Outcome::stages, {.says = "What took how long.", .unit = "milliseconds"}),
-         field("warnings", &Outcome::warnings, {.says = "Of a frame's report."}),
-         field("note", &Outcome::note, {.says = "For the log alone."}));
-static_assert(kRowsAreComplete<Outcome>);
+inline constexpr auto kRows<Outcome> = rows("Outcome", "The result of an order.", field<&Outcome::number>("The order."),
+                                            field<&Outcome::problems>("Why there is no result."),
+                                            field<&Outcome::retryAfterSeconds>("When to ask again.",
+                                                                               {.unit = "seconds"}),
+                                            field<&Outcome::damaged>("The bundle is not the one that the id names."),
+                                            field<&Outcome::contentType>("Of the result."),
+                                            field<&Outcome::stages>("What took how long.", {.unit = "milliseconds"}),
+                                            field<&Outcome::warnings>("Of a frame's report."),
+                                            field<&Outcome::note>("For the log alone."));
 
 template <>
 inline constexpr auto kRows<OrderEvent> = rows("OrderEvent", "A server-sent event of an order.",
-                                               field("number", &OrderEvent::number, {.says = "The order."}),
-                                               field("name", &OrderEvent::name, {.says = "Of the event."}),
-                                               field("data", &OrderEvent::data, {.says = "JSON."}));
-static_assert(kRowsAreComplete<OrderEvent>);
+                                               field<&OrderEvent::number>("The order."),
+                                               field<&OrderEvent::name>("Of the event."),
+                                               field<&OrderEvent::data>("JSON."));
 
 template <>
-inline constexpr auto kRows<Beat> = rows("Beat", "A sign of life.",
-                                         field("scenes", &Beat::scenes, {.says = "Loaded scenes."}),
-                                         field("sceneBytes", &Beat::sceneBytes, {.says = "Of them.", .unit = "bytes"}),
-                                         field("reusedMeshes", &Beat::reusedMeshes, {.says = "Found in other scenes."}),
-                                         field("reusedImages", &Beat::reusedImages, {.says = "The same of images."}),
-                                         field("costFactors", &Beat::costFactors,
-                                               {.says = "Of each part of a frame.", .unit = "milliseconds"}));
-static_assert(kRowsAreComplete<Beat>);
+inline constexpr auto kRows<Beat> = rows("Beat", "A sign of life.", field<&Beat::scenes>("Loaded scenes."),
+                                         field<&Beat::sceneBytes>("Of them.", {.unit = "bytes"}),
+                                         field<&Beat::reusedMeshes>("Found in other scenes."),
+                                         field<&Beat::reusedImages>("The same of images."),
+                                         field<&Beat::costFactors>("Of each part of a frame.",
+                                                                   {.unit = "milliseconds"}));
 
 template <>
 inline constexpr auto kRows<Refusal> = rows("Refusal", "A worker that can't start.",
-                                            field("problems", &Refusal::problems, {.says = "Why not."}));
+                                            field<&Refusal::problems>("Why not."));
 
 template <>
 inline constexpr auto kRows<LightMapRequest> = rows("LightMapRequest", "Asks for a stored light map.",
-                                                    field("number", &LightMapRequest::number, {.says = "Names it."}),
-                                                    field("key", &LightMapRequest::key, {.says = "Of the light map."}));
-static_assert(kRowsAreComplete<LightMapRequest>);
+                                                    field<&LightMapRequest::number>("Names it."),
+                                                    field<&LightMapRequest::key>("Of the light map."));
 
 template <>
 inline constexpr auto kRows<LightMapMade> = rows("LightMapMade", "A light map to be stored.",
-                                                 field("key", &LightMapMade::key, {.says = "Of the light map."}));
+                                                 field<&LightMapMade::key>("Of the light map."));
 
 template <>
-inline constexpr auto kRows<ToFront> = rows("ToFront", "A message to the front.",
-                                            field("ready", &ToFront::ready, {.says = "What draws."}),
-                                            field("refusal", &ToFront::refusal, {.says = "Why nothing draws."}),
-                                            field("outcome", &ToFront::outcome, {.says = "The result of an order."}),
-                                            field("event", &ToFront::event, {.says = "An order's progress."}),
-                                            field("beat", &ToFront::beat, {.says = "A sign of life."}),
-                                            field("request", &ToFront::request,
-                                                  {.says = "A light map that is wanted."}),
-                                            field("made", &ToFront::made, {.says = "A light map that was made."}));
-static_assert(kRowsAreComplete<ToFront>);
+inline constexpr auto kRows<ToFront> = rows("ToFront", "A message to the front.", field<&ToFront::ready>("What draws."),
+                                            field<&ToFront::refusal>("Why nothing draws."),
+                                            field<&ToFront::outcome>("The result of an order."),
+                                            field<&ToFront::event>("An order's progress."),
+                                            field<&ToFront::beat>("A sign of life."),
+                                            field<&ToFront::request>("A light map that is wanted."),
+                                            field<&ToFront::made>("A light map that was made."));
 
 } // namespace gnomon

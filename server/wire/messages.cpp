@@ -2,8 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "protocol/fields/field_decode.h"
-#include "protocol/fields/field_encode.h"
+#include "protocol/fields/field_codec.h"
 #include "protocol/fields/type_tables.h"
 #include "protocol/json/json_codec.h"
 #include "server/wire/message_rows.h"
@@ -31,10 +30,10 @@ std::optional<Message> readMessage(std::string_view text) {
 } // namespace
 
 std::string textOf(const ToWorker& message) {
-  return jsonText(encodeValue(message));
+  return jsonText(toJson(message));
 }
 std::string textOf(const ToFront& message) {
-  return jsonText(encodeValue(message));
+  return jsonText(toJson(message));
 }
 
 std::optional<ToWorker> readToWorker(std::string_view text) {

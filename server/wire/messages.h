@@ -8,7 +8,7 @@
 
 #include "protocol/base/result.h"
 #include "protocol/report/replies.h"
-#include "protocol/report/sensor_range.h"
+#include "protocol/spec/output_options.h"
 
 /// The messages between the process that listens (the front) and a worker, over a Channel. Each message is one JSON
 /// object with one member; files go with some.

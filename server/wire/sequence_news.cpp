@@ -2,8 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "protocol/fields/field_decode.h"
-#include "protocol/fields/field_encode.h"
+#include "protocol/fields/field_codec.h"
 #include "protocol/fields/type_tables.h"
 #include "protocol/json/json_codec.h"
 
@@ -12,7 +11,7 @@ namespace gnomon {
 template const ValueType& typeOf<SequenceNews>();
 
 std::string textOf(const SequenceNews& news) {
-  return jsonText(encodeValue(news));
+  return jsonText(toJson(news));
 }
 
 std::optional<SequenceNews> readSequenceNews(std::string_view text) {

@@ -45,23 +45,20 @@ std::optional<SequenceNews> readSequenceNews(std::string_view text);
 // The rows of these; see fields.h.
 template <>
 inline constexpr auto kRows<DrawnNews> = rows("DrawnNews", "A frame is drawn.",
-                                              field("carried", &DrawnNews::carried, {.says = "Of this frame alone."}),
-                                              field("warnings", &DrawnNews::warnings, {.says = "Of its report."}));
-static_assert(kRowsAreComplete<DrawnNews>);
+                                              field<&DrawnNews::carried>("Of this frame alone."),
+                                              field<&DrawnNews::warnings>("Of its report."));
 
 template <>
-inline constexpr auto kRows<PictureNews> = rows(
-    "PictureNews", "A picture among the bytes of the result.", field("view", &PictureNews::view, {.says = "Its view."}),
-    field("contentType", &PictureNews::contentType, {.says = "Its media type."}),
-    field("bytes", &PictureNews::bytes, {.says = "Its size.", .unit = "bytes"}),
-    field("width", &PictureNews::width, {.says = "Of a raw picture.", .unit = "pixels"}),
-    field("height", &PictureNews::height, {.says = "Of a raw picture.", .unit = "pixels"}));
-static_assert(kRowsAreComplete<PictureNews>);
+inline constexpr auto kRows<PictureNews> = rows("PictureNews", "A picture among the bytes of the result.",
+                                                field<&PictureNews::view>("Its view."),
+                                                field<&PictureNews::contentType>("Its media type."),
+                                                field<&PictureNews::bytes>("Its size.", {.unit = "bytes"}),
+                                                field<&PictureNews::width>("Of a raw picture.", {.unit = "pixels"}),
+                                                field<&PictureNews::height>("Of a raw picture.", {.unit = "pixels"}));
 
 template <>
 inline constexpr auto kRows<SequenceNews> = rows("SequenceNews", "How far a frame of a sequence is.",
-                                                 field("drawn", &SequenceNews::drawn, {.says = "It is drawn."}),
-                                                 field("pictures", &SequenceNews::pictures, {.says = "Its pictures."}));
-static_assert(kRowsAreComplete<SequenceNews>);
+                                                 field<&SequenceNews::drawn>("It is drawn."),
+                                                 field<&SequenceNews::pictures>("Its pictures."));
 
 } // namespace gnomon

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "protocol/bake/bake_json.h"
+#include "protocol/bake/bake.h"
 #include "protocol/json/json_codec.h"
 #include "server/worker/frame_memory.h"
 #include "server/worker/orders.h"

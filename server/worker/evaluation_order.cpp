@@ -1,9 +1,8 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/bytes.h"
-#include "protocol/evaluation/evaluation_json.h"
+#include "protocol/evaluation/evaluation.h"
 #include "protocol/json/json_codec.h"
-#include "protocol/json/quality_json.h"
 #include "renderer/core/parallel.h"
 #include "server/worker/frame_memory.h"
 #include "server/worker/orders.h"

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 
-#include "protocol/spec/format_traits.h"
 #include "protocol/spec/limits.h"
+#include "protocol/spec/traits.h"
 
 namespace gnomon {
 namespace {

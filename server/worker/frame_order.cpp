@@ -3,9 +3,9 @@
 
 #include "protocol/base/elapsed.h"
 #include "protocol/json/json_codec.h"
-#include "protocol/sequence/carry.h"
+#include "protocol/sequence/sequence.h"
 #include "protocol/spec/enum_rows.h"
-#include "protocol/spec/format_traits.h"
+#include "protocol/spec/traits.h"
 #include "server/wire/frame_form.h"
 #include "server/wire/sequence_news.h"
 #include "server/worker/frame_memory.h"

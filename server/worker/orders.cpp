@@ -7,7 +7,6 @@
 #include <thread>
 
 #include "protocol/json/json_codec.h"
-#include "protocol/json/node_json.h"
 #include "server/system/log.h"
 #include "server/worker/frame_memory.h"
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "protocol/evaluation/sweeps.h"
+#include "protocol/evaluation/evaluation.h"
 #include "protocol/json/json_codec.h"
 #include "renderer/charts/charts.h"
 #include "renderer/evaluation/evaluate.h"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "protocol/evaluation/evaluation_json.h"
+#include "protocol/evaluation/evaluation.h"
 #include "protocol/json/json_codec.h"
 #include "renderer/evaluation/evaluation_measures.h"
 #include "renderer/rays/traced_scene.h"

@@ -4,7 +4,7 @@ import json
 import struct
 import unittest
 
-from command_line_test import BOX, OK, PROBLEM, USAGE, AgainstServer, gnomon
+from command_line import BOX, OK, PROBLEM, USAGE, AgainstServer, gnomon
 from shipped_server import EXR_MAGIC, png_size
 
 BAKE = ["--sun", "135,40", "--set", "shadow.technique=lightMap", "--set", "shadow.lightMap.size=128"]

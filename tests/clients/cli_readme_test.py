@@ -7,7 +7,7 @@ import subprocess
 import unittest
 from pathlib import Path
 
-from command_line_test import BOX, CommandLine
+from command_line import BOX, CommandLine
 from shipped_server import BINARY, SCENES, TIMEOUT, Server, environment, png_size
 
 README = Path(__file__).resolve().parents[2] / "clients/cli/README.md"

@@ -3,7 +3,7 @@
 import json
 import unittest
 
-from command_line_test import BOX, OK, PROBLEM, SMALL, USAGE, AgainstServer, gnomon
+from command_line import BOX, OK, PROBLEM, SMALL, USAGE, AgainstServer, gnomon
 
 
 class Evaluate(AgainstServer):

@@ -4,7 +4,7 @@ import json
 import unittest
 import zipfile
 
-from command_line_test import BOX, OK, PROBLEM, USAGE, AgainstServer, gnomon
+from command_line import BOX, OK, PROBLEM, USAGE, AgainstServer, gnomon
 
 SMALL = {"width": 64, "height": 48, "antialiasing": "none"}
 FRAMES = [{"camera": {"orbit": {"azimuthDegrees": each}}} for each in (10, 30, 50)]

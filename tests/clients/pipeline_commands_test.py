@@ -8,7 +8,7 @@ import subprocess
 import unittest
 from pathlib import Path
 
-from command_line_test import BOX, OK, PROBLEM, SMALL, USAGE, CommandLine, gnomon, split_glb
+from command_line import BOX, OK, PROBLEM, SMALL, USAGE, CommandLine, gnomon, split_glb
 from shipped_server import BINARY, SCENES, TIMEOUT, environment, png_size
 
 CAMERAS = str(SCENES / "cameras.glb")

@@ -3,7 +3,7 @@
 import json
 import unittest
 
-from command_line_test import BOX, OK, PROBLEM, SMALL, USAGE, CommandLine, gnomon
+from command_line import BOX, OK, PROBLEM, SMALL, USAGE, CommandLine, gnomon
 from shipped_server import Server, png_size
 from webm import Video
 

@@ -15,7 +15,7 @@ import unittest
 import zipfile
 from pathlib import Path
 
-from command_line_test import BOX, OK, PROBLEM, SMALL, USAGE, CommandLine, gnomon
+from command_line import BOX, OK, PROBLEM, SMALL, USAGE, CommandLine, gnomon
 from shipped_server import BINARY, TIMEOUT, ServerTest, environment, png_size
 
 

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "protocol/json/json_codec.h"
-#include "protocol/spec/shadow_volume_places.h"
+#include "protocol/spec/frame_lights.h"
 #include "protocol/spec/traits.h"
 #include "renderer/render.h"
 #include "tests/fuzz/sound_problems.h"

@@ -1,7 +1,7 @@
 // Frame specs and evaluations as JSON. What is taken is written again, and read back the same.
 #include <nlohmann/json.hpp>
 
-#include "protocol/evaluation/evaluation_json.h"
+#include "protocol/evaluation/evaluation.h"
 #include "protocol/json/json_codec.h"
 #include "tests/fuzz/sound_problems.h"
 

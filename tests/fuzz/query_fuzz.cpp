@@ -1,6 +1,5 @@
 // A request's target: path, query, and the frame spec that the query gives.
 #include "protocol/json/json_codec.h"
-#include "protocol/json/query_codec.h"
 #include "server/http/url.h"
 #include "tests/fuzz/sound_problems.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "protocol/spec/field_rows.h"
-#include "protocol/spec/rules.h"
+#include "protocol/spec/validate.h"
 
 namespace gnomon {
 namespace {

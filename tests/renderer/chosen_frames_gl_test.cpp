@@ -3,7 +3,7 @@
 #include <random>
 
 #include "protocol/json/json_codec.h"
-#include "protocol/spec/shadow_volume_places.h"
+#include "protocol/spec/frame_lights.h"
 #include "renderer/render.h"
 #include "tests/support/chosen_spec.h"
 #include "tests/support/same_frames.h"

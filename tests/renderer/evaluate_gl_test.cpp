@@ -3,7 +3,7 @@
 #include <set>
 #include <thread>
 
-#include "protocol/evaluation/evaluation_json.h"
+#include "protocol/evaluation/evaluation.h"
 #include "tests/renderer/frame_fixture.h"
 #include "tests/support/tested_device.h"
 

@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "protocol/json/json_codec.h"
-#include "protocol/spec/format_traits.h"
+#include "protocol/spec/traits.h"
 #include "tests/renderer/frame_fixture.h"
 
 namespace gnomon {

@@ -6,7 +6,7 @@
 #include "clients/cli/commands/spec_flags.h"
 #include "clients/cli/files/file_io.h"
 #include "clients/cli/files/scene_file.h"
-#include "clients/cli/render/baking.h"
+#include "clients/cli/render/rendering.h"
 #include "clients/cli/spec/spec_arguments.h"
 
 namespace gnomon::cli {

@@ -4,9 +4,7 @@
 #include <string_view>
 
 #include "clients/cli/commands/commands.h"
-#include "clients/cli/commands/config_flags.h"
 #include "clients/cli/terminal/messages.h"
-#include "protocol/base/nearest_name.h"
 #include "protocol/base/text.h"
 
 namespace gnomon::cli {

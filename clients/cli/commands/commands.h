@@ -29,6 +29,9 @@ struct Subcommand {
 /// name) leaves open, before `app` parses them. Tells what is wrong and gives an ExitCode where there is no way on.
 std::optional<int> takeConfiguration(CLI::App& app, const std::vector<std::string>& arguments);
 
+/// --preset, --config, --no-config and --show-config, for a command that draws or calls a server.
+void addConfigFlags(CLI::App& command);
+
 /// Every command that needs no server in the process. `app` outlives them: some print what it holds.
 std::vector<Subcommand> addClientCommands(CLI::App& app);
 

@@ -37,8 +37,8 @@ Result<bool> compareLayers(const CompareOptions& options, std::span<const ExrLay
   const auto pairs = layerPairs(first, second, options.layers);
   if (!pairs) return pairs.problems();
   if (options.diff == "-" && pairs->size() > 1) {
-    return Problem{ProblemCode::invalidValue, "--diff", "Standard output takes the difference of one layer.", "1",
-                   std::to_string(pairs->size())};
+    return invalidValue("--diff", "Standard output takes the difference of one layer.", "1",
+                        std::to_string(pairs->size()));
   }
   bool isWithin = true;
   std::string lines;
@@ -68,8 +68,8 @@ int runCompare(const CompareOptions& options) {
   if (!second) return printProblems(second.problems());
   const bool isShare = std::holds_alternative<std::vector<std::uint8_t>>(first->front().image.pixels);
   if (isShare && options.threshold > 1) {
-    printProblems({{ProblemCode::invalidValue, "--threshold", "With 8 bits a channel, a share of their range.", "0..1",
-                    std::to_string(options.threshold)}});
+    printProblems({invalidValue("--threshold", "With 8 bits a channel, a share of their range.", "0..1",
+                                std::to_string(options.threshold))});
     return kExitUsage;
   }
   const auto isWithin = compareLayers(options, *first, *second);

@@ -1,5 +1,3 @@
-#include "clients/cli/commands/config_flags.h"
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
@@ -9,7 +7,6 @@
 
 #include "clients/cli/commands/commands.h"
 #include "clients/cli/config/client_config.h"
-#include "clients/cli/config/flag_layers.h"
 #include "clients/cli/files/file_io.h"
 #include "clients/cli/terminal/messages.h"
 
@@ -56,7 +53,7 @@ ConfigOrder orderOf(const CLI::App& typed) {
 
 Result<ClientConfig> readConfig(const ConfigOrder& order, const std::vector<std::string>& keys) {
   if (order.none && !order.file.empty()) {
-    return Problem{ProblemCode::invalidValue, "--no-config", "This excludes --config.", "", ""};
+    return invalidValue("--no-config", "This excludes --config.");
   }
   if (order.none) return ClientConfig{};
   const std::string file =

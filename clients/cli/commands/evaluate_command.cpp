@@ -11,7 +11,7 @@
 #include "clients/cli/render/rendering.h"
 #include "clients/cli/spec/spec_arguments.h"
 #include "clients/cli/terminal/result_text.h"
-#include "protocol/evaluation/evaluation_json.h"
+#include "protocol/evaluation/evaluation.h"
 #include "renderer/charts/charts.h"
 
 namespace gnomon::cli {

@@ -15,7 +15,7 @@
 #include "clients/cli/spec/spec_arguments.h"
 #include "clients/cli/terminal/messages.h"
 #include "clients/cli/terminal/result_text.h"
-#include "protocol/base/scene_id.h"
+#include "protocol/base/scene_bundle.h"
 
 namespace gnomon::cli {
 namespace {

@@ -8,12 +8,12 @@
 
 #include "clients/cli/commands/commands.h"
 #include "clients/cli/commands/spec_flags.h"
-#include "clients/cli/files/new_file.h"
+#include "clients/cli/files/file_io.h"
 #include "clients/cli/remote/http_client.h"
 #include "clients/cli/remote/remote_scene.h"
 #include "clients/cli/terminal/messages.h"
 #include "protocol/base/bytes.h"
-#include "protocol/job/job_json.h"
+#include "protocol/job/job.h"
 #include "protocol/job/job_rows.h"
 
 /// The jobs of a server.
@@ -33,7 +33,7 @@ std::string jobLine(const Job& job) {
 }
 
 Problem noJob(const Remote& remote) {
-  return {ProblemCode::internal, remote.url, "The reply is not a job.", "", ""};
+  return {ProblemCode::internal, remote.url, "The reply is not a job."};
 }
 
 Result<Job> jobFrom(const Remote& remote, const std::string& path, ProgressLine& progress) {

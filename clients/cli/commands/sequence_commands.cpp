@@ -12,7 +12,6 @@
 #include "clients/cli/commands/commands.h"
 #include "clients/cli/commands/spec_flags.h"
 #include "clients/cli/files/file_io.h"
-#include "clients/cli/files/new_file.h"
 #include "clients/cli/files/output_names.h"
 #include "clients/cli/files/scene_file.h"
 #include "clients/cli/remote/http_client.h"
@@ -22,10 +21,9 @@
 #include "clients/cli/terminal/messages.h"
 #include "clients/cli/terminal/result_text.h"
 #include "protocol/base/text.h"
-#include "protocol/job/job_json.h"
+#include "protocol/job/job.h"
 #include "protocol/json/json_codec.h"
-#include "protocol/sequence/sequence_json.h"
-#include "protocol/sequence/video_frames.h"
+#include "protocol/sequence/sequence.h"
 
 /// Many frames of one scene: a request's, or a turn around it.
 namespace gnomon::cli {
@@ -259,8 +257,8 @@ int runTurntable(SequenceOptions options) {
   if (!spec) return printProblems(spec.problems(), origins);
   const Camera& camera = spec->camera;
   if (camera.lookAt || camera.node || camera.pose) {
-    return printProblems({{ProblemCode::invalidValue, "/camera", "A turntable turns around the scene or a target.",
-                           "orbit | fit | no placement", "another placement"}},
+    return printProblems({invalidValue("/camera", "A turntable turns around the scene or a target.",
+                                       "orbit | fit | no placement", "another placement")},
                          origins);
   }
   auto maker = makerFor(options.where);

@@ -1,12 +1,12 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "clients/cli/commands/commands.h"
 #include "clients/cli/terminal/command_rows.h"
-#include "clients/cli/terminal/completion_script.h"
-#include "clients/cli/terminal/man_page.h"
+#include "protocol/openapi/openapi.h"
 
 namespace gnomon::cli {
 namespace {
@@ -34,6 +34,11 @@ Subcommand addCompletionCommand(CLI::App& app) {
 Subcommand addManCommand(CLI::App& app) {
   auto* command = app.add_subcommand("man", "Print the manual page: gnomon man | man -l -");
   return {[command] { return command->parsed(); }, [&app] { return print(manPage(commandRows(app), app.version())); }};
+}
+
+Subcommand addOpenApiCommand(CLI::App& app) {
+  auto* command = app.add_subcommand("openapi", "Print the OpenAPI document of the HTTP API, as /openapi.json has it");
+  return {[command] { return command->parsed(); }, [] { return print(openApi().dump(2) + "\n"); }};
 }
 
 } // namespace gnomon::cli

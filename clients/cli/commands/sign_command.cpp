@@ -10,7 +10,6 @@
 #include "clients/cli/files/file_io.h"
 #include "clients/cli/terminal/messages.h"
 #include "protocol/access/access_key.h"
-#include "protocol/access/signed_target.h"
 
 namespace gnomon::cli {
 namespace {
@@ -55,8 +54,8 @@ Result<AccessKey> signingKey(const SignOptions& options) {
 int runSign(const SignOptions& options) {
   const auto path = frameTargetBegin(options.url);
   if (!path) {
-    return printProblems({{ProblemCode::invalidValue, "URL", "This is no address of a frame without a fragment.",
-                           "[http://host:port]/v1/scenes/ID/frame?…", options.url}});
+    return printProblems({invalidValue("URL", "This is no address of a frame without a fragment.",
+                                       "[http://host:port]/v1/scenes/ID/frame?…", options.url)});
   }
   const auto key = signingKey(options);
   if (!key) return printProblems(key.problems());

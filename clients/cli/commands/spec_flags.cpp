@@ -8,7 +8,8 @@
 #include <string_view>
 
 #include "clients/cli/files/file_io.h"
-#include "clients/cli/spec/field_flags.h"
+#include "clients/cli/files/output_names.h"
+#include "clients/cli/spec/spec_arguments.h"
 #include "protocol/base/text.h"
 #include "protocol/fields/field_list.h"
 #include "protocol/spec/enum_rows.h"
@@ -241,13 +242,13 @@ Result<Remote> remoteOf(const WhereOptions& where) {
     place = where.keyFile;
     remote.key = trimmed(std::string_view(*text).substr(0, text->find_first_of("\r\n")));
     if (remote.key.empty()) {
-      return Problem{ProblemCode::invalidValue, place, "The first line of this file is no key.", "", ""};
+      return invalidValue(place, "The first line of this file is no key.");
     }
   } else if (const char* key = std::getenv("GNOMON_KEY"); key != nullptr) {
     remote.key = key;
   }
   if (std::any_of(remote.key.begin(), remote.key.end(), [](char c) { return c <= ' ' || c >= 0x7f; })) {
-    return Problem{ProblemCode::invalidValue, place, "A key has no spaces and none but ASCII characters.", "", ""};
+    return invalidValue(place, "A key has no spaces and none but ASCII characters.");
   }
   return remote;
 }

@@ -9,7 +9,7 @@
 #include "clients/cli/remote/http_client.h"
 #include "clients/cli/remote/remote_scene.h"
 #include "clients/cli/terminal/messages.h"
-#include "protocol/base/scene_id.h"
+#include "protocol/base/scene_bundle.h"
 
 /// The scenes that a server keeps.
 namespace gnomon::cli {
@@ -57,8 +57,7 @@ Result<std::string> uploadFile(const Remote& remote, const std::string& file, co
 
 Result<std::string> removeScene(const Remote& remote, const std::string& id, ProgressLine& progress) {
   progress.stage("removing " + id);
-  if (!isSceneId(id))
-    return Problem{ProblemCode::invalidValue, "ID", "This is no scene's id.", "64 hexadecimal digits", id};
+  if (!isSceneId(id)) return invalidValue("ID", "This is no scene's id.", "64 hexadecimal digits", id);
   HttpCall call;
   call.method = "DELETE";
   call.path = "/v1/scenes/" + id;
@@ -89,14 +88,14 @@ Result<std::string> listPage(const Remote& remote, const std::string& after, Pro
   if (reply->status != 200) return problemsOf(remote.url, *reply);
   const Json page = Json::parse(reply->body, nullptr, false);
   if (!page.is_object() || !page.contains("scenes") || !page["scenes"].is_array()) {
-    return Problem{ProblemCode::internal, remote.url, "The reply is not a list of scenes.", "", ""};
+    return Problem{ProblemCode::internal, remote.url, "The reply is not a list of scenes."};
   }
   for (const Json& scene : page["scenes"]) {
     if (scene.is_object()) print(scene);
   }
   const std::string next = textAt(page, "next");
   const bool goesOn = next.empty() || next > after; // ids ascend: a server that turns in circles is left
-  if (!goesOn) return Problem{ProblemCode::internal, remote.url, "The pages of the list don't ascend.", "", ""};
+  if (!goesOn) return Problem{ProblemCode::internal, remote.url, "The pages of the list don't ascend."};
   return next;
 }
 

@@ -9,13 +9,14 @@
 #include "clients/cli/commands/spec_flags.h"
 #include "clients/cli/files/file_io.h"
 #include "clients/cli/files/file_watch.h"
+#include "clients/cli/files/output_names.h"
 #include "clients/cli/files/scene_file.h"
 #include "clients/cli/render/frame_maker.h"
 #include "clients/cli/spec/spec_arguments.h"
 #include "clients/cli/terminal/messages.h"
 #include "clients/cli/terminal/result_text.h"
 #include "protocol/base/elapsed.h"
-#include "protocol/base/file_uri.h"
+#include "protocol/base/scene_bundle.h"
 #include "protocol/spec/limits.h"
 
 namespace gnomon::cli {

@@ -134,7 +134,7 @@ Result<PictureDifference> differenceOf(const Image& a, const Image& b, double th
         std::tuple(a.width != b.width || a.height != b.height, sizeText(a), sizeText(b),
                    "The pictures differ in size."),
         std::tuple(a.channels != b.channels, channelText(a), channelText(b), "The pictures differ in channels.")}) {
-    if (differs) return Problem{ProblemCode::invalidValue, "", says, ours, theirs};
+    if (differs) return invalidValue("", says, ours, theirs);
   }
   const std::vector<double> differences = pixelDifferences(a, b);
   const auto worst = std::max_element(differences.begin(), differences.end());

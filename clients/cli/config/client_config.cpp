@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "protocol/base/nearest_name.h"
 #include "protocol/base/text.h"
 
 namespace gnomon::cli {
@@ -31,7 +30,7 @@ Result<ClientConfig> parseClientConfig(std::string_view text, const std::string&
   ClientConfig config{file, {}};
   Problems problems;
   const auto fail = [&](int line, const std::string& detail) {
-    problems.push_back({ProblemCode::invalidValue, placeOf(file, line), detail, "", ""});
+    problems.push_back(invalidValue(placeOf(file, line), detail));
   };
   for (ConfigSection& section : *sections) {
     for (const ConfigEntry& entry : section.entries) {

@@ -1,11 +1,11 @@
-#include "clients/cli/config/flag_layers.h"
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <set>
 #include <string_view>
+
+#include "clients/cli/config/client_config.h"
 
 namespace gnomon::cli {
 namespace {
@@ -68,8 +68,7 @@ class Choice {
       if (option == nullptr || !isConfigurable(*option) || isOutranked(*option, layer)) continue;
       const std::string place = file_ + ":" + std::to_string(entry.line);
       if (isAnyOf(option->get_excludes(), ours)) {
-        problems_.push_back(
-            {ProblemCode::invalidValue, place, entry.key + " excludes another flag of the same section.", "", ""});
+        problems_.push_back(invalidValue(place, entry.key + " excludes another flag of the same section."));
         continue;
       }
       decided_.insert(option);
@@ -78,7 +77,7 @@ class Choice {
       const std::string preset = layer.preset.empty() ? "" : "preset " + layer.preset + ", ";
       settings_.insert(settings_.begin(), {option, valuesOf(*option, entry), entry.key, preset + place});
       if (entry.isList && option->get_items_expected_max() <= 1) {
-        problems_.push_back({ProblemCode::invalidValue, place, entry.key + " takes one value, not a list.", "", ""});
+        problems_.push_back(invalidValue(place, entry.key + " takes one value, not a list."));
       }
     }
     given_.insert(ours.begin(), ours.end());
@@ -179,7 +178,7 @@ Result<FlagPlaces> setFlags(CLI::App& command, const CLI::App& typed, const std:
     if (!fault.empty()) {
       const std::string flag = "--" + setting.key;
       const std::string detail = fault.starts_with(flag) ? fault.substr(2) : setting.key + ": " + fault;
-      problems.push_back({ProblemCode::invalidValue, setting.place, detail, "", ""});
+      problems.push_back(invalidValue(setting.place, detail));
     }
     for (const std::string& spelling : spellingsOf(setting, typed)) places[spelling] = setting.place;
   }

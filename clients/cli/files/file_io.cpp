@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
+#include <sys/stat.h>
 #include <unistd.h>
-
-#include "clients/cli/files/new_file.h"
-#include "protocol/spec/format_traits.h"
+#include <utility>
 
 namespace gnomon::cli {
 namespace {
@@ -81,51 +82,64 @@ Status writeFile(const std::string& path, std::span<const std::uint8_t> bytes) {
   return file->finish();
 }
 
-std::optional<std::string> formatOf(const std::string& output) {
-  const std::string suffix = std::filesystem::path(output).extension();
-  if (suffix.empty()) return std::nullopt;
-  for (const FormatTraits& traits : kFormatTraits) {
-    if (suffix == traits.suffix || suffix == traits.otherSuffix) return std::string(spell(traits.format));
+bool writeAll(int file, std::span<const std::uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
-  return std::nullopt;
+  return true;
 }
 
-std::string suffixList() {
-  std::string list;
-  for (const FormatTraits& traits : kFormatTraits) {
-    for (const std::string_view suffix : {traits.suffix, traits.otherSuffix}) {
-      if (!suffix.empty()) list.append(list.empty() ? "" : " ").append(suffix);
-    }
-  }
-  return list;
+namespace {
+
+/// The folder that a file is to be in, and those around it.
+Status makeFolderOf(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (!error) return Done{};
+  return invalidValue(path, "The folder " + folder.string() + " can't be made: " + error.message() + ".");
 }
 
-std::string checkPictureName(const std::string& output) {
-  return formatOf(output) ? "" : "needs a name that ends in one of " + suffixList();
+} // namespace
+
+Result<NewFile> NewFile::create(const std::string& path) {
+  if (auto made = makeFolderOf(path); !made) return made.problems();
+  std::string temporary = path + ".XXXXXX";
+  const int file = ::mkostemp(temporary.data(), O_CLOEXEC);
+  if (file < 0) return invalidValue(path, std::string(std::strerror(errno)) + ".");
+  return NewFile(path, std::move(temporary), file);
 }
 
-std::string pictureFile(const std::string& output, const std::string& view, std::size_t pictureCount) {
-  constexpr std::string_view kView = "{view}";
-  if (const auto at = output.find(kView); at != std::string::npos) {
-    return std::string(output).replace(at, kView.size(), view);
-  }
-  if (pictureCount == 1) return output;
-  std::filesystem::path path(output);
-  const std::string suffix = path.extension();
-  return path.replace_extension(view + suffix);
+NewFile::NewFile(NewFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      temporary_(std::exchange(other.temporary_, {})),
+      file_(std::exchange(other.file_, -1)) {}
+
+NewFile::~NewFile() {
+  if (file_ >= 0) ::close(file_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
-Result<std::vector<std::string>> writePictures(const std::vector<Picture>& pictures, const std::string& output) {
-  if (output == "-" && pictures.size() > 1) {
-    return Problem{ProblemCode::invalidValue, "--output", "Standard output takes one picture.", "1",
-                   std::to_string(pictures.size())};
-  }
-  std::vector<std::string> names;
-  for (const Picture& picture : pictures) {
-    names.push_back(pictureFile(output, picture.view, pictures.size()));
-    if (auto written = writeFile(names.back(), picture.file); !written) return written.problems();
-  }
-  return names;
+Problem NewFile::failed(int error) const {
+  return invalidValue(path_, std::string(std::strerror(error)) + ".");
+}
+
+Status NewFile::write(std::span<const std::uint8_t> bytes) {
+  if (!writeAll(file_, bytes)) return failed(errno);
+  return Done{};
+}
+
+Status NewFile::finish() {
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  if (::fchmod(file_, 0666 & ~mask) != 0) return failed(errno);
+  if (::close(std::exchange(file_, -1)) != 0) return failed(errno);
+  if (::rename(temporary_.c_str(), path_.c_str()) != 0) return failed(errno);
+  temporary_.clear();
+  return Done{};
 }
 
 } // namespace gnomon::cli

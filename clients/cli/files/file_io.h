@@ -1,12 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "clients/cli/render/rendering.h"
 #include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
 
@@ -25,20 +25,30 @@ Result<std::string> readText(const std::string& path, std::size_t maxBytes);
 /// needs. "-" is standard output.
 Status writeFile(const std::string& path, std::span<const std::uint8_t> bytes);
 
-/// The `output.format` of the name's suffix; nothing for any other, and for "-" (standard output).
-std::optional<std::string> formatOf(const std::string& output);
+/// A file that is written piece by piece and put in place atomically: readers see the old file or the whole new
+/// one, and nothing is left of one that is not finished. Problems name the path as the user gave it.
+class NewFile {
+ public:
+  /// Makes the folders of the path that are not there.
+  static Result<NewFile> create(const std::string& path);
+  NewFile(NewFile&& other) noexcept;
+  NewFile& operator=(NewFile&&) = delete;
+  ~NewFile();
 
-/// Every suffix that formatOf knows: ".png .exr ...".
-std::string suffixList();
+  Status write(std::span<const std::uint8_t> bytes);
+  Status finish(); ///< once, as the last call
 
-/// What is wrong with an output's name: empty where formatOf knows it.
-std::string checkPictureName(const std::string& output);
+ private:
+  NewFile(std::string path, std::string temporary, int file)
+      : path_(std::move(path)), temporary_(std::move(temporary)), file_(file) {}
+  Problem failed(int error) const;
 
-/// Where a picture goes: the output with its {view}, the output itself, or, one of several, "frame.depth.png" for view
-/// depth of "frame.png".
-std::string pictureFile(const std::string& output, const std::string& view, std::size_t pictureCount);
+  std::string path_;
+  std::string temporary_; ///< beside the path, since a rename is one step only within a file system; empty = none
+  int file_;              ///< -1 = closed
+};
 
-/// Writes every picture, each file in one step; gives their names. Standard output takes one picture only.
-Result<std::vector<std::string>> writePictures(const std::vector<Picture>& pictures, const std::string& output);
+/// All of it to an open file; false with errno.
+bool writeAll(int file, std::span<const std::uint8_t> bytes);
 
 } // namespace gnomon::cli

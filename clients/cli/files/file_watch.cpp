@@ -17,7 +17,7 @@ constexpr int kQuietMilliseconds = 50; // after which a burst of changes is over
 constexpr std::uint32_t kChanges = IN_CLOSE_WRITE | IN_MOVED_TO | IN_DELETE | IN_MOVED_FROM;
 
 Problem systemProblem(const std::string& where, const char* detail) {
-  return {ProblemCode::internal, where, std::string(detail) + ": " + std::strerror(errno) + ".", "", ""};
+  return {ProblemCode::internal, where, std::string(detail) + ": " + std::strerror(errno) + "."};
 }
 
 } // namespace

@@ -5,6 +5,9 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "clients/cli/files/file_io.h"
+#include "protocol/spec/traits.h"
+
 namespace gnomon::cli {
 
 std::string asFileName(std::string name) {
@@ -53,9 +56,9 @@ void markCollisions(std::vector<BatchItem>& items, std::string BatchItem::*file,
     const auto [owner, isNew] = owners.emplace(name, &item);
     if (isNew) continue;
     const std::string what = name == "-" ? "Standard output" : "The file " + name;
-    item.collision = Problem{ProblemCode::invalidValue, flag,
-                             what + " would be written more than once: by " + owner->second->scene + ", too.",
-                             missingPlaceholders(pattern, *owner->second, item), ""};
+    item.collision =
+        invalidValue(flag, what + " would be written more than once: by " + owner->second->scene + ", too.",
+                     missingPlaceholders(pattern, *owner->second, item));
   }
 }
 
@@ -80,8 +83,7 @@ Result<std::string> filledIn(const std::string& pattern, const Placeholders& val
     }
     const auto value = values.find(name);
     if (value == values.end()) {
-      return Problem{ProblemCode::invalidValue, pattern, "There is no such placeholder here.", listOf(values),
-                     "{" + name + "}"};
+      return invalidValue(pattern, "There is no such placeholder here.", listOf(values), "{" + name + "}");
     }
     text += asFileName(value->second);
     at = end + 1;
@@ -97,6 +99,52 @@ std::string frameNumber(int index) {
   std::array<char, 16> text{};
   std::snprintf(text.data(), text.size(), "%05d", index);
   return text.data();
+}
+
+std::optional<std::string> formatOf(const std::string& output) {
+  const std::string suffix = std::filesystem::path(output).extension();
+  if (suffix.empty()) return std::nullopt;
+  for (const FormatTraits& traits : kFormatTraits) {
+    if (suffix == traits.suffix || suffix == traits.otherSuffix) return std::string(spell(traits.format));
+  }
+  return std::nullopt;
+}
+
+std::string suffixList() {
+  std::string list;
+  for (const FormatTraits& traits : kFormatTraits) {
+    for (const std::string_view suffix : {traits.suffix, traits.otherSuffix}) {
+      if (!suffix.empty()) list.append(list.empty() ? "" : " ").append(suffix);
+    }
+  }
+  return list;
+}
+
+std::string checkPictureName(const std::string& output) {
+  return formatOf(output) ? "" : "needs a name that ends in one of " + suffixList();
+}
+
+std::string pictureFile(const std::string& output, const std::string& view, std::size_t pictureCount) {
+  constexpr std::string_view kView = "{view}";
+  if (const auto at = output.find(kView); at != std::string::npos) {
+    return std::string(output).replace(at, kView.size(), view);
+  }
+  if (pictureCount == 1) return output;
+  std::filesystem::path path(output);
+  const std::string suffix = path.extension();
+  return path.replace_extension(view + suffix);
+}
+
+Result<std::vector<std::string>> writePictures(const std::vector<Picture>& pictures, const std::string& output) {
+  if (output == "-" && pictures.size() > 1) {
+    return invalidValue("--output", "Standard output takes one picture.", "1", std::to_string(pictures.size()));
+  }
+  std::vector<std::string> names;
+  for (const Picture& picture : pictures) {
+    names.push_back(pictureFile(output, picture.view, pictures.size()));
+    if (auto written = writeFile(names.back(), picture.file); !written) return written.problems();
+  }
+  return names;
 }
 
 Result<std::vector<BatchItem>> batchItems(const BatchOrder& order) {

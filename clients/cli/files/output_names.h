@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "clients/cli/render/rendering.h"
 #include "protocol/base/result.h"
 
-/// Names of files that are made from a pattern: "out/{scene}-{camera}.png".
+/// Names of files that are made from a pattern, "out/{scene}-{camera}.png", and the pictures in them.
 namespace gnomon::cli {
 
 /// Placeholder without its braces -> its value.
@@ -25,6 +26,22 @@ std::string sceneName(const std::string& path);
 
 /// A number with leading zeros, for names that sort: 7 -> "00007".
 std::string frameNumber(int index);
+
+/// The `output.format` of the name's suffix; nothing for any other, and for "-" (standard output).
+std::optional<std::string> formatOf(const std::string& output);
+
+/// Every suffix that formatOf knows: ".png .exr ...".
+std::string suffixList();
+
+/// What is wrong with an output's name: empty where formatOf knows it.
+std::string checkPictureName(const std::string& output);
+
+/// Where a picture goes: the output with its {view}, the output itself, or, one of several, "frame.depth.png" for view
+/// depth of "frame.png".
+std::string pictureFile(const std::string& output, const std::string& view, std::size_t pictureCount);
+
+/// Writes every picture, each file in one step; gives their names. Standard output takes one picture only.
+Result<std::vector<std::string>> writePictures(const std::vector<Picture>& pictures, const std::string& output);
 
 /// Every camera of every scene.
 struct BatchOrder {

@@ -6,7 +6,7 @@
 
 #include "clients/cli/files/file_io.h"
 #include "protocol/base/bytes.h"
-#include "protocol/base/file_uri.h"
+#include "protocol/base/scene_bundle.h"
 #include "protocol/spec/limits.h"
 
 namespace gnomon::cli {

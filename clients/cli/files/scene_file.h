@@ -9,7 +9,7 @@
 #include "protocol/base/result.h"
 #include "protocol/base/scene_bundle.h"
 #include "protocol/spec/limits.h"
-#include "protocol/spec/volume_options.h"
+#include "protocol/spec/scene_options.h"
 
 namespace gnomon::cli {
 

@@ -7,7 +7,6 @@
 #include <utility>
 
 namespace gnomon::cli {
-
 namespace {
 
 constexpr std::size_t kChunk = 256 * 1024; // bytes handed to the socket at once
@@ -104,12 +103,11 @@ std::string reasonOf(httplib::Error error) {
 Result<HttpReply> callServer(const Remote& remote, const HttpCall& call) {
   const std::string& server = remote.url;
   const auto address = parseAddress(server);
-  if (!address)
-    return Problem{ProblemCode::invalidValue, server, "This is not a server's address.", "http://HOST:PORT", ""};
+  if (!address) return invalidValue(server, "This is not a server's address.", "http://HOST:PORT");
   try {
     httplib::Client client(address->origin);
     if (!client.is_valid()) {
-      return Problem{ProblemCode::invalidValue, server, "This is not a server's address.", "http://HOST:PORT", ""};
+      return invalidValue(server, "This is not a server's address.", "http://HOST:PORT");
     }
     const auto patience = call.patience.count() > 0 ? call.patience : remote.patience;
     client.set_connection_timeout(std::min(patience, std::chrono::seconds{10}));
@@ -122,12 +120,12 @@ Result<HttpReply> callServer(const Remote& remote, const HttpCall& call) {
     client.set_default_headers(headers);
     const auto reply = send(client, address->prefix + call.path, call);
     if (!reply)
-      return Problem{ProblemCode::unavailable, server, "There was no reply: " + reasonOf(reply.error()) + ".", "", ""};
+      return Problem{ProblemCode::unavailable, server, "There was no reply: " + reasonOf(reply.error()) + "."};
     *remote.wasThere = true;
     const auto retryAfter = std::min<std::uint64_t>(reply->get_header_value<std::uint64_t>("Retry-After"), 3600);
     return HttpReply{reply->status, reply->get_header_value("Content-Type"), reply->body, static_cast<int>(retryAfter)};
   } catch (const std::exception& error) {
-    return Problem{ProblemCode::internal, server, std::string("The call failed: ") + error.what() + ".", "", ""};
+    return Problem{ProblemCode::internal, server, std::string("The call failed: ") + error.what() + "."};
   }
 }
 

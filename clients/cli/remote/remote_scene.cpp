@@ -158,7 +158,7 @@ Result<std::string> sceneId(const Remote& remote, const SceneBundle& bundle, Pro
   if (reply->status != 200 && reply->status != 201) return problemsOf(remote.url, *reply);
   const Json summary = Json::parse(reply->body, nullptr, false);
   const std::string id = summary.is_object() ? textAt(summary, "id") : "";
-  if (id.empty()) return Problem{ProblemCode::internal, remote.url, "The reply to the upload names no scene.", "", ""};
+  if (id.empty()) return Problem{ProblemCode::internal, remote.url, "The reply to the upload names no scene."};
   return id;
 }
 
@@ -211,7 +211,7 @@ Result<std::string> askWithEvents(const Remote& remote, const SceneBundle& bundl
   const auto reply = askAbout(remote, bundle, id, post, progress);
   if (!reply) return reply.problems();
   if (!last) {
-    return Problem{ProblemCode::unavailable, remote.url, "The reply ended before the " + what + " did.", "", ""};
+    return Problem{ProblemCode::unavailable, remote.url, "The reply ended before the " + what + " did."};
   }
   if (last->name == "problem") return problemsOf(remote.url, {200, "", last->data, 0});
   return std::move(last->data);

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "protocol/base/elapsed.h"
-#include "protocol/evaluation/evaluation_json.h"
+#include "protocol/evaluation/evaluation.h"
 
 namespace gnomon::cli {
 

@@ -6,7 +6,6 @@
 
 #include "clients/cli/render/rendering.h"
 #include "clients/cli/render/sequence_run.h"
-#include "clients/cli/render/video_run.h"
 
 namespace gnomon::cli {
 

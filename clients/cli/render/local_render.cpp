@@ -1,8 +1,8 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
-#include "clients/cli/render/local_scene.h"
 #include "clients/cli/render/rendering.h"
+#include "protocol/bake/bake.h"
 #include "protocol/base/elapsed.h"
 #include "protocol/json/json_codec.h"
 #include "renderer/render.h"
@@ -28,6 +28,20 @@ Result<Settled> settleTarget(const ScenePtr& scene, const FrameSpec& spec, Rende
 }
 
 } // namespace
+
+Result<LocalScene> openHere(const SceneBundle& bundle, const BackendOptions& backend, ProgressLine& progress) {
+  progress.stage("loading the scene");
+  const auto start = std::chrono::steady_clock::now();
+  auto scene = loadScene(bundle);
+  if (!scene) return scene.problems();
+  const double milliseconds = millisecondsSince(start);
+  progress.stage("starting the renderer");
+  RendererOptions options;
+  options.backend = backend;
+  auto renderer = Renderer::create(options);
+  if (!renderer) return renderer.problems();
+  return LocalScene{*std::move(scene), *std::move(renderer), milliseconds};
+}
 
 Result<Rendered> drawHere(Renderer& renderer, const ScenePtr& scene, const FrameSpec& spec,
                           std::optional<double> loadMilliseconds, ProgressLine& progress) {
@@ -78,6 +92,23 @@ Result<std::string> planHere(const SceneBundle& bundle, const FrameSpec& spec, c
   const auto plan = planFrame(here->scene, spec, *device);
   if (!plan) return plan.problems();
   return toJson(*plan).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Result<Baked> bakeHere(const SceneBundle& bundle, const BakeOrder& order, const BackendOptions& backend,
+                       ProgressLine& progress) {
+  const auto here = openHere(bundle, backend, progress);
+  if (!here) return here.problems();
+  const Baker baker = here->renderer.baker();
+  progress.stage("baking");
+  const auto report = baker.bake(here->scene, order.spec, [&](const BakeStep& step) {
+    progress.share(step.of > 0 ? (step.done + step.share) / step.of : 0);
+    return true;
+  });
+  if (!report) return report.problems();
+  progress.stage("making the file");
+  auto file = baker.file(here->scene, order.spec, order.kind, order.light);
+  if (!file) return file.problems();
+  return Baked{*std::move(file), toJson(*report).dump(2) + "\n"};
 }
 
 } // namespace gnomon::cli

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "protocol/evaluation/evaluation_json.h"
+#include "protocol/evaluation/evaluation.h"
 #include "protocol/json/json_codec.h"
 
 namespace gnomon::cli {
@@ -22,7 +22,7 @@ void makeExact(Shadow& shadow) {
 Result<FrameSpec> drawnSpec(const std::string& reportJson) {
   const Json report = Json::parse(reportJson, nullptr, false);
   if (!report.is_object() || !report.contains("spec")) {
-    return Problem{ProblemCode::internal, "", "The frame's report has no request.", "", ""};
+    return Problem{ProblemCode::internal, "", "The frame's report has no request."};
   }
   return decodeFrameSpec(report["spec"].dump());
 }
@@ -48,15 +48,14 @@ std::string referenceName(const std::string& output) {
 }
 
 Result<ErrorMetrics> metricsOf(const EvaluationReport& measured) {
-  if (measured.rows.empty()) return Problem{ProblemCode::internal, "", "The evaluation has no row.", "", ""};
+  if (measured.rows.empty()) return Problem{ProblemCode::internal, "", "The evaluation has no row."};
   const EvaluationRow& row = measured.rows.front();
   if (row.metrics) return *row.metrics;
   Problems problems;
   for (const VariantProblem& each : row.problems.value_or(std::vector<VariantProblem>())) {
-    problems.push_back(
-        {ProblemCode::invalidValue, each.pointer, each.detail, each.limit.value_or(""), each.actual.value_or("")});
+    problems.push_back(invalidValue(each.pointer, each.detail, each.limit.value_or(""), each.actual.value_or("")));
   }
-  if (problems.empty()) problems.push_back({ProblemCode::internal, "", "The frame could not be measured.", "", ""});
+  if (problems.empty()) problems.push_back({ProblemCode::internal, "", "The frame could not be measured."});
   return problems;
 }
 

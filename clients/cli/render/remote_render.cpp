@@ -4,8 +4,9 @@
 #include "clients/cli/remote/http_client.h"
 #include "clients/cli/remote/remote_scene.h"
 #include "clients/cli/render/rendering.h"
+#include "protocol/bake/bake.h"
 #include "protocol/base/bytes.h"
-#include "protocol/evaluation/evaluation_json.h"
+#include "protocol/evaluation/evaluation.h"
 #include "protocol/json/json_codec.h"
 
 namespace gnomon::cli {
@@ -27,6 +28,18 @@ std::optional<Rendered> renderedOf(const std::string& text) {
   return rendered;
 }
 
+/// The report of a bake on a server, with its progress shown; `id` as callAbout takes it.
+Result<BakeReport> askForBake(const Remote& remote, const SceneBundle& bundle, std::string& id, const FrameSpec& spec,
+                              ProgressLine& progress) {
+  const std::string body = toJson(spec).dump();
+  const auto show = [&](const ServerEvent& event) { showProgress(event, progress); };
+  const auto text = askWithEvents(remote, bundle, id, {"/bakes", body, "baking on the server"}, "bake", show, progress);
+  if (!text) return text.problems();
+  auto report = readBakeReport(*text);
+  if (!report) return Problem{ProblemCode::internal, remote.url, "The reply is not a bake."};
+  return *std::move(report);
+}
+
 } // namespace
 
 Result<Rendered> drawThere(const Remote& remote, const SceneBundle& bundle, std::string& id, const FrameSpec& spec,
@@ -35,7 +48,7 @@ Result<Rendered> drawThere(const Remote& remote, const SceneBundle& bundle, std:
   const auto reply = askAbout(remote, bundle, id, {"/frames", body, "working on the server"}, progress);
   if (!reply) return reply.problems();
   auto rendered = renderedOf(*reply);
-  if (!rendered) return Problem{ProblemCode::internal, remote.url, "The reply is not a frame.", "", ""};
+  if (!rendered) return Problem{ProblemCode::internal, remote.url, "The reply is not a frame."};
   return std::move(*rendered);
 }
 
@@ -46,7 +59,7 @@ Result<std::string> planThere(const Remote& remote, const SceneBundle& bundle, c
   const auto reply = askAbout(remote, bundle, id, {"/plan", body, "working on the server"}, progress);
   if (!reply) return reply.problems();
   const Json plan = Json::parse(*reply, nullptr, false);
-  if (!plan.is_object()) return Problem{ProblemCode::internal, remote.url, "The reply is not a plan.", "", ""};
+  if (!plan.is_object()) return Problem{ProblemCode::internal, remote.url, "The reply is not a plan."};
   return plan.dump(2) + "\n";
 }
 
@@ -57,8 +70,25 @@ Result<EvaluationReport> evaluateThere(const Remote& remote, const SceneBundle& 
                                   "evaluation", show, progress);
   if (!text) return text.problems();
   auto report = readEvaluationReport(*text);
-  if (!report) return Problem{ProblemCode::internal, remote.url, "The reply is not an evaluation.", "", ""};
+  if (!report) return Problem{ProblemCode::internal, remote.url, "The reply is not an evaluation."};
   return *std::move(report);
+}
+
+Result<Baked> bakeThere(const Remote& remote, const SceneBundle& bundle, const BakeOrder& order,
+                        ProgressLine& progress) {
+  std::string id;
+  const auto report = askForBake(remote, bundle, id, order.spec, progress);
+  if (!report) return report.problems();
+  progress.stage("fetching the file");
+  HttpCall fetch;
+  fetch.path =
+      "/v1/scenes/" + id + "/bakes/" + report->key + (order.light ? "?light=" + std::to_string(*order.light) : "");
+  fetch.headers = {{"Accept", std::string(kBakeFileTypes[static_cast<std::size_t>(order.kind)])}};
+  const auto reply = callPatiently(remote, fetch, progress);
+  if (!reply) return reply.problems();
+  if (reply->status != 200) return problemsOf(remote.url, *reply);
+  const auto file = asBytes(reply->body);
+  return Baked{Bytes(file.begin(), file.end()), toJson(*report).dump(2) + "\n"};
 }
 
 } // namespace gnomon::cli

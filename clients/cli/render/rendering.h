@@ -55,4 +55,34 @@ Result<std::string> planThere(const Remote& remote, const SceneBundle& bundle, c
 Result<EvaluationReport> evaluateThere(const Remote& remote, const SceneBundle& bundle, std::string& id,
                                        const std::string& requestJson, ProgressLine& progress);
 
+/// A scene, and what draws it, in this process.
+struct LocalScene {
+  ScenePtr scene;
+  Renderer renderer;
+  double loadMilliseconds = 0; ///< that the scene took
+};
+
+Result<LocalScene> openHere(const SceneBundle& bundle, const BackendOptions& backend, ProgressLine& progress);
+
+/// What to bake, and into which file.
+struct BakeOrder {
+  FrameSpec spec;
+  BakeFile kind = BakeFile::glb;
+  std::optional<int> light; ///< as bakeFile takes it
+};
+
+/// What a bake gives, wherever it was made.
+struct Baked {
+  Bytes file;
+  std::string reportJson;
+};
+
+/// Bakes in this process, with a bar of what is done.
+Result<Baked> bakeHere(const SceneBundle& bundle, const BakeOrder& order, const BackendOptions& backend,
+                       ProgressLine& progress);
+
+/// Bakes on the server, listening to its events, and fetches the file.
+Result<Baked> bakeThere(const Remote& remote, const SceneBundle& bundle, const BakeOrder& order,
+                        ProgressLine& progress);
+
 } // namespace gnomon::cli

@@ -1,5 +1,3 @@
-#include "clients/cli/spec/field_flags.h"
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -10,7 +8,7 @@ namespace gnomon::cli {
 namespace {
 
 Problem notA(const FieldFlag& flag, const char* need, std::string_view text) {
-  return {ProblemCode::invalidValue, flag.flag, std::string("needs ") + need, flag.typeName, asciiExcerpt(text)};
+  return invalidValue(flag.flag, std::string("needs ") + need, flag.typeName, asciiExcerpt(text));
 }
 
 bool isIndex(std::string_view text) {
@@ -65,7 +63,7 @@ Result<std::string> applyFieldFlag(Json& spec, const FieldFlag& flag, std::strin
   for (const std::string& other : splitTrimmed(hasCamera ? flag.replaces : "", ' ')) camera->erase(other);
   Json* parent = parentOf(spec, steps);
   if (parent == nullptr) {
-    return Problem{ProblemCode::invalidValue, pointerOf(path), "Unknown field.", "", ""};
+    return invalidValue(pointerOf(path), "Unknown field.");
   }
   if (flag.value == FlagValue::nameOrIndex) parent->erase(value->is_number() ? "name" : "index");
   if (flag.value == FlagValue::color) {

@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "clients/cli/files/file_io.h"
-#include "clients/cli/spec/field_flags.h"
+#include "protocol/base/json.h"
 #include "protocol/base/text.h"
-#include "protocol/json/field_path.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/json/json_source.h"
 #include "protocol/spec/limits.h"
@@ -47,8 +46,8 @@ Status setAtPath(Json& root, std::string_view path, Json value) {
     return problem;
   }
   if (steps->size() > static_cast<std::size_t>(kLimits.maxJsonDepth)) {
-    return Problem{ProblemCode::invalidValue, "", "The path is too deep.",
-                   std::to_string(kLimits.maxJsonDepth) + " steps", std::to_string(steps->size())};
+    return invalidValue("", "The path is too deep.", std::to_string(kLimits.maxJsonDepth) + " steps",
+                        std::to_string(steps->size()));
   }
   Json* place = &root;
   std::vector<FieldStep> taken;
@@ -56,7 +55,7 @@ Status setAtPath(Json& root, std::string_view path, Json value) {
     taken.push_back(step);
     place = stepInto(*place, step);
     if (!place) {
-      return Problem{ProblemCode::invalidValue, gnomon::pointerOf(taken), "Unknown field.", "", ""};
+      return invalidValue(gnomon::pointerOf(taken), "Unknown field.");
     }
   }
   *place = std::move(value);

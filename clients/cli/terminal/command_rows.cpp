@@ -63,4 +63,76 @@ std::vector<CommandRow> commandRows(const CLI::App& app) {
   return rows;
 }
 
+namespace {
+
+/// Text as troff takes it: a backslash begins an escape, a bare - is a hyphen, and . or ' at the beginning of a line a
+/// request.
+std::string troff(const std::string& text) {
+  std::string out = text.starts_with('.') || text.starts_with('\'') ? "\\&" : "";
+  for (const char c : text) {
+    if (c == '\\')
+      out += "\\e";
+    else if (c == '-')
+      out += "\\-";
+    else
+      out += c == '\n' ? ' ' : c;
+  }
+  return out;
+}
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+std::string flagText(const FlagRow& flag) {
+  std::string text = ".TP\n";
+  if (flag.isArgument) {
+    text += "\\fI" + troff(flag.name) + "\\fR\n";
+  } else {
+    if (!flag.shortName.empty()) text += "\\fB" + troff(flag.shortName) + "\\fR, ";
+    text += "\\fB" + troff(flag.name) + "\\fR";
+    text += flag.value.empty() ? "\n" : " \\fI" + troff(flag.value) + "\\fR\n";
+  }
+  text += troff(flag.says + ".") + "\n";
+  if (!flag.choices.empty() && flag.name != "--view") text += troff("One of " + listed(flag.choices) + ".") + "\n";
+  if (!flag.defaultText.empty()) text += troff("Default: " + flag.defaultText + ".") + "\n";
+  if (!flag.variable.empty()) text += troff("Variable: " + flag.variable + ".") + "\n";
+  return text;
+}
+
+} // namespace
+
+std::string manPage(std::span<const CommandRow> commands, const std::string& version) {
+  std::string text =
+      ".TH GNOMON 1 \"\" \"" + troff(version) +
+      "\" \"User Commands\"\n"
+      ".SH NAME\n"
+      "gnomon \\- render glTF scenes with shadows, without a display\n"
+      ".SH SYNOPSIS\n"
+      ".B gnomon\n"
+      "\\fICOMMAND\\fR [\\fIOPTION\\fR ...] [\\fIARGUMENT\\fR ...]\n"
+      ".SH DESCRIPTION\n"
+      "A glTF scene, a camera and lights go in; shadowed pictures come out, made in this process or on a\n"
+      "server.\n"
+      ".SH COMMANDS\n";
+  for (const CommandRow& command : commands) {
+    text += ".SS gnomon " + troff(command.name) + "\n" + troff(command.says + ".") + "\n";
+    for (const FlagRow& flag : command.flags) text += flagText(flag);
+  }
+  return text +
+         ".SH EXIT STATUS\n"
+         ".TP\n0\nDone.\n"
+         ".TP\n1\nA problem, printed on standard error; of compare, pictures that differ.\n"
+         ".TP\n2\nThe command line is wrong.\n"
+         ".SH ENVIRONMENT\n"
+         ".TP\n.B GNOMON_KEY\nThe key that a server is shown where no \\-\\-key\\-file is given.\n"
+         ".TP\n.B GNOMON_URL\nThe server of the commands that need one.\n"
+         ".TP\n.B GNOMON_CLIENT_CONFIG\nThe configuration where no \\-\\-config is given.\n"
+         ".SH FILES\n"
+         ".TP\n.I ~/.config/gnomon/config\nThe configuration of the commands that draw or call a server: defaults of\n"
+         "their flags as KEY = VALUE, and named sets of them below [preset.NAME].\n";
+}
+
 } // namespace gnomon::cli

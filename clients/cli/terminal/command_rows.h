@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,5 +33,13 @@ struct CommandRow {
 
 /// Every command that people use, in the order of --help.
 std::vector<CommandRow> commandRows(const CLI::App& app);
+
+// Scripts that make a shell complete commands, flags and the values of flags.
+std::string bashCompletion(std::span<const CommandRow> commands);
+std::string zshCompletion(std::span<const CommandRow> commands);
+std::string fishCompletion(std::span<const CommandRow> commands);
+
+/// gnomon(1) as troff with the man macros. `version`: "gnomon 0.1.0".
+std::string manPage(std::span<const CommandRow> commands, const std::string& version);
 
 } // namespace gnomon::cli

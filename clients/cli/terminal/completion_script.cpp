@@ -1,4 +1,4 @@
-#include "clients/cli/terminal/completion_script.h"
+#include "clients/cli/terminal/command_rows.h"
 
 namespace gnomon::cli {
 namespace {

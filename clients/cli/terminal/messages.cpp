@@ -11,7 +11,6 @@
 #include "protocol/json/json_codec.h"
 
 namespace gnomon::cli {
-
 namespace {
 
 /// Settings of messages, shared by all commands and passed to none.

@@ -12,7 +12,6 @@
 #include "protocol/base/text.h"
 
 namespace gnomon::cli {
-
 namespace {
 
 constexpr std::size_t kColumns = 9;

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "protocol/base/bytes.h"
-#include "protocol/base/file_uri.h"
+#include "protocol/base/scene_bundle.h"
 #include "renderer/scene/decode/meshopt.h"
 #include "renderer/scene/findings.h"
 

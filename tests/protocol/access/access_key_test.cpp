@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "protocol/access/signed_target.h"
 #include "protocol/base/bytes.h"
 
 namespace gnomon {

@@ -4,10 +4,8 @@
 #include <rapidcheck.h>
 #include <vector>
 
-#include "protocol/base/file_uri.h"
-#include "protocol/base/nearest_name.h"
+#include "protocol/base/scene_bundle.h"
 #include "protocol/json/json_codec.h"
-#include "protocol/json/query_codec.h"
 
 namespace gnomon {
 namespace {

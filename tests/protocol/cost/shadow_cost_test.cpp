@@ -1,10 +1,9 @@
-#include "protocol/cost/shadow_cost.h"
-
 #include <cmath>
 #include <fstream>
 #include <numeric>
 #include <sstream>
 
+#include "protocol/cost/frame_cost.h"
 #include "protocol/spec/frame_lights.h"
 
 namespace gnomon {

@@ -1,11 +1,9 @@
-#include "protocol/evaluation/evaluation_json.h"
-
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "protocol/evaluation/sweeps.h"
+#include "protocol/evaluation/evaluation.h"
 #include "protocol/spec/limits.h"
 #include "tests/protocol/found_problems.h"
 

@@ -32,14 +32,14 @@ enum class Wrong { one, two };
 } // namespace
 
 template <>
-inline constexpr std::array kSpellings<Short>{spelling(Short::one, "one")};
+inline constexpr std::array kSpellings<Short>{spelling<Short::one>()};
 template <>
-inline constexpr std::array kSpellings<Wrong>{spelling(Wrong::one, "one"), spelling(Wrong::two, "tow")};
+inline constexpr std::array kSpellings<Wrong>{spelling<Wrong::two>(), spelling<Wrong::one>()};
 
 namespace {
 
 static_assert(!spellsAll<Short>(), "an enumerator is missing");
-static_assert(!spellsAll<Wrong>(), "an enumerator is misspelt");
+static_assert(!spellsAll<Wrong>(), "the enumerators are out of order");
 
 /// Calls `visit` with each row of T and of every struct that T leads to.
 template <class T, class Visit>

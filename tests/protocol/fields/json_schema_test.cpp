@@ -7,7 +7,7 @@
 #include <set>
 
 #include "protocol/base/result.h"
-#include "protocol/fields/field_decode.h"
+#include "protocol/fields/field_codec.h"
 #include "protocol/fields/field_list.h"
 #include "protocol/openapi/openapi.h"
 #include "protocol/report/reply_rows.h"

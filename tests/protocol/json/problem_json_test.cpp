@@ -2,10 +2,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "protocol/bake/bake_json.h"
-#include "protocol/job/job_json.h"
+#include "protocol/bake/bake.h"
+#include "protocol/job/job.h"
 #include "protocol/json/json_codec.h"
-#include "protocol/json/quality_json.h"
 #include "tests/protocol/schema_check.h"
 
 namespace gnomon {

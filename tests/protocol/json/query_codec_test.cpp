@@ -1,11 +1,9 @@
-#include "protocol/json/query_codec.h"
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <rapidcheck/gtest.h>
 
+#include "protocol/base/json.h"
 #include "protocol/base/text.h"
-#include "protocol/json/field_path.h"
 #include "protocol/json/json_codec.h"
 #include "tests/protocol/found_problems.h"
 #include "tests/protocol/spec_generator.h"

@@ -7,8 +7,7 @@
 #include <set>
 
 #include "protocol/json/json_codec.h"
-#include "protocol/json/query_codec.h"
-#include "protocol/spec/format_traits.h"
+#include "protocol/spec/traits.h"
 
 namespace gnomon {
 namespace {

@@ -1,11 +1,8 @@
-#include "protocol/sequence/sequence_json.h"
-
 #include <algorithm>
 #include <gtest/gtest.h>
 
-#include "protocol/sequence/carry.h"
-#include "protocol/sequence/video_frames.h"
-#include "protocol/spec/format_traits.h"
+#include "protocol/sequence/sequence.h"
+#include "protocol/spec/traits.h"
 #include "tests/protocol/found_problems.h"
 
 namespace gnomon {

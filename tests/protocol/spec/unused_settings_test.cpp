@@ -1,5 +1,3 @@
-#include "protocol/spec/unused_settings.h"
-
 #include <gmock/gmock.h>
 
 #include "protocol/spec/frame_lights.h"

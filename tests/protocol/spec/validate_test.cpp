@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "protocol/spec/rules.h"
 #include "tests/protocol/found_problems.h"
 #include "tests/protocol/spec_generator.h"
 

@@ -1,7 +1,8 @@
 // What an evaluation decides without drawing: the front, medians, who shares a reference, and when to stop.
+#include "protocol/evaluation/evaluation.h"
+
 #include <gtest/gtest.h>
 
-#include "protocol/evaluation/evaluation_json.h"
 #include "renderer/evaluation/evaluate.h"
 #include "renderer/evaluation/evaluation_measures.h"
 #include "renderer/evaluation/world_points.h"

@@ -8,7 +8,7 @@
 #include <optional>
 #include <unistd.h>
 
-#include "protocol/access/signed_target.h"
+#include "protocol/access/access_key.h"
 #include "protocol/base/bytes.h"
 #include "server/access/key_ring.h"
 #include "tests/server/http/asked.h"

@@ -14,6 +14,7 @@
 #include "server/process/signals.h"
 #include "tests/server/system/pipe.h"
 #include "tests/support/page_table.h"
+#include "protocol/base/text.h"
 
 namespace gnomon {
 namespace {

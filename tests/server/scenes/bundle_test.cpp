@@ -5,7 +5,7 @@
 #include <rapidcheck.h>
 #include <set>
 
-#include "protocol/base/scene_id.h"
+#include "protocol/base/scene_bundle.h"
 #include "server/bakes/bake_registry.h"
 #include "server/scenes/stored_light_maps.h"
 #include "server/scenes/upload.h"

@@ -7,8 +7,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "clients/cli/config/flag_layers.h"
-
 namespace gnomon::cli {
 namespace {
 

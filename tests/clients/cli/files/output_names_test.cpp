@@ -6,7 +6,7 @@
 #include <iterator>
 #include <rapidcheck.h>
 
-#include "clients/cli/files/new_file.h"
+#include "clients/cli/files/file_io.h"
 #include "protocol/base/bytes.h"
 
 namespace gnomon::cli {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <string_view>
 
-#include "protocol/base/scene_id.h"
+#include "protocol/base/scene_bundle.h"
 
 namespace gnomon::cli {
 namespace {

@@ -1,5 +1,3 @@
-#include "clients/cli/spec/field_flags.h"
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <gmock/gmock.h>
@@ -10,6 +8,7 @@
 
 #include "clients/cli/commands/commands.h"
 #include "clients/cli/commands/spec_flags.h"
+#include "clients/cli/spec/spec_arguments.h"
 
 namespace gnomon::cli {
 namespace {

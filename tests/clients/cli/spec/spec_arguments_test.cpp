@@ -6,7 +6,6 @@
 #include <rapidcheck.h>
 
 #include "protocol/json/json_codec.h"
-#include "protocol/json/query_codec.h"
 
 namespace gnomon::cli {
 namespace {

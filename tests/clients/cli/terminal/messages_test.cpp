@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "clients/cli/files/file_io.h"
+#include "clients/cli/files/output_names.h"
 #include "clients/cli/terminal/result_text.h"
 
 namespace gnomon::cli {

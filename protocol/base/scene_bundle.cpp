@@ -1,4 +1,4 @@
-#include "protocol/base/file_uri.h"
+#include "protocol/base/scene_bundle.h"
 
 #include <algorithm>
 #include <vector>
@@ -6,7 +6,6 @@
 #include "protocol/base/bytes.h"
 
 namespace gnomon {
-
 namespace {
 
 /// Of "file://host/path": what follows the host, which is the computer itself.

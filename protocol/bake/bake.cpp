@@ -1,10 +1,8 @@
-#include "protocol/bake/bake_json.h"
+#include "protocol/bake/bake.h"
 
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/bytes.h"
-#include "protocol/fields/field_decode.h"
-#include "protocol/fields/field_encode.h"
 
 namespace gnomon {
 
@@ -22,28 +20,16 @@ FrameSpec bakedParts(const FrameSpec& spec) {
 }
 
 std::string bakeKey(std::string_view sceneId, const FrameSpec& spec) {
-  const std::string text = toJson(bakedParts(spec)).dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string text = jsonText(toJson(bakedParts(spec)));
   Sha256 hash;
   hash.add(asBytes(sceneId));
   hash.add(asBytes(text));
   return hash.hex();
 }
 
-Json toJson(const BakeReport& report) {
-  return encodeValue(report);
-}
-Json toJson(const BakeStep& step) {
-  return encodeValue(step);
-}
-
 std::optional<BakeReport> readBakeReport(std::string_view json) {
-  const Json document = Json::parse(json, nullptr, false);
-  if (!document.is_object() || !document.contains("lights")) return std::nullopt;
-  BakeReport report;
-  ProblemList unknown;
-  decodeValue(nodeOf(document), Notes{}, Place(), unknown, report);
-  if (report.lights.empty()) return std::nullopt;
-  return report;
+  auto report = readReply<BakeReport>(json, {"lights"});
+  return report && !report->lights.empty() ? report : std::nullopt;
 }
 
 } // namespace gnomon

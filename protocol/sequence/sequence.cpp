@@ -1,12 +1,10 @@
-#include "protocol/sequence/sequence_json.h"
+#include "protocol/sequence/sequence.h"
 
 #include <algorithm>
 
-#include "protocol/evaluation/patch_checks.h"
-#include "protocol/fields/field_decode.h"
-#include "protocol/fields/field_encode.h"
+#include "protocol/evaluation/evaluation.h"
+#include "protocol/fields/field_codec.h"
 #include "protocol/sequence/between_keys.h"
-#include "protocol/sequence/carry.h"
 #include "protocol/spec/validate.h"
 
 namespace gnomon {
@@ -38,10 +36,6 @@ Json writtenFrame(const Sequence& sequence, int index) {
   return place.t == 0 ? before : between(before, patched(sequence, place.key + 1), place.t);
 }
 
-Problem invalid(std::string pointer, const char* detail, std::string limit = {}, std::string actual = {}) {
-  return {ProblemCode::invalidValue, std::move(pointer), detail, std::move(limit), std::move(actual)};
-}
-
 constexpr const char* kTarget =
     "A target would choose other settings for each frame; ask for one frame with it, and take its settings.";
 
@@ -49,9 +43,10 @@ void checkCarried(const Carried& carried, const std::string& place, ProblemList&
   for (std::size_t i = 0; i < carried.depthRanges.size(); ++i) {
     const CarriedRange& range = carried.depthRanges[i];
     const std::string pointer = place + "/depthRanges/" + std::to_string(i);
-    if (range.near >= range.far) problems.add(invalid(pointer + "/far", "The value of far must be more than near."));
+    if (range.near >= range.far)
+      problems.add(invalidValue(pointer + "/far", "The value of far must be more than near."));
     if (i > 0 && range.light <= carried.depthRanges[i - 1].light) {
-      problems.add(invalid(pointer + "/light", "The lights must ascend, each once."));
+      problems.add(invalidValue(pointer + "/light", "The lights must ascend, each once."));
     }
   }
 }
@@ -60,21 +55,22 @@ void checkCarried(const Carried& carried, const std::string& place, ProblemList&
 void checkMembers(const SequenceRequest& request, const Json& document, ProblemList& problems) {
   const bool given[] = {document.contains("frames"), document.contains("keys")};
   if (given[0] == given[1]) {
-    problems.add(invalid("", "A sequence is of frames or of keys.", "frames | keys", given[0] ? "both" : "neither"));
+    problems.add(
+        invalidValue("", "A sequence is of frames or of keys.", "frames | keys", given[0] ? "both" : "neither"));
   }
-  if (given[1] && !document.contains("count")) problems.add(invalid("/count", "Keys need the number of frames."));
+  if (given[1] && !document.contains("count")) problems.add(invalidValue("/count", "Keys need the number of frames."));
   if (given[0] && document.contains("count")) {
-    problems.add(invalid("/count", "count goes with keys; a list of frames has its own length."));
+    problems.add(invalidValue("/count", "count goes with keys; a list of frames has its own length."));
   }
-  if (request.spec.quality) problems.add(invalid("/spec/quality", kTarget));
+  if (request.spec.quality) problems.add(invalidValue("/spec/quality", kTarget));
   if (request.carried) checkCarried(*request.carried, "/carried", problems);
   if (request.carried && !request.stable) {
-    problems.add(invalid("/carried", "Frames take nothing from each other where stable is false."));
+    problems.add(invalidValue("/carried", "Frames take nothing from each other where stable is false."));
   }
   if (request.first > 0 && request.stable && !request.carried) {
-    problems.add(invalid("/carried",
-                         "A stable sequence that goes on at a later frame needs what the frame before it "
-                         "left."));
+    problems.add(invalidValue("/carried",
+                              "A stable sequence that goes on at a later frame needs what the frame before it "
+                              "left."));
   }
 }
 
@@ -124,7 +120,7 @@ void checkFrames(const Sequence& sequence, const std::function<void(const FrameS
     if (!frame) {
       addPatchProblems(frame.problems(), known, place, problems);
     } else if (frame->quality) {
-      if (!sequence.spec.contains("quality")) problems.add(invalid(place + "/quality", kTarget));
+      if (!sequence.spec.contains("quality")) problems.add(invalidValue(place + "/quality", kTarget));
     } else if (index >= sequence.first && each) {
       each(*frame);
     }
@@ -159,14 +155,14 @@ Result<Sequence> decodeSequence(std::string_view json, const std::function<void(
   sequence.spec = writtenSpec(document);
   const bool isWhole = sequence.isKeyed ? !request.frames && request.count.has_value() : request.frames.has_value();
   if (!isWhole) {
-    if (problems.empty()) problems.add(invalid("", "A sequence is of frames or of keys.", "frames | keys"));
+    if (problems.empty()) problems.add(invalidValue("", "A sequence is of frames or of keys.", "frames | keys"));
     return std::move(problems).take();
   }
   sequence.patches = parsed(sequence.isKeyed ? *request.keys : *request.frames);
   sequence.count = sequence.isKeyed ? *request.count : static_cast<int>(sequence.patches.size());
   if (sequence.first >= sequence.count) {
-    problems.add(invalid("/first", "There is no frame of this index.", "0.." + std::to_string(sequence.count - 1),
-                         std::to_string(sequence.first)));
+    problems.add(invalidValue("/first", "There is no frame of this index.", "0.." + std::to_string(sequence.count - 1),
+                              std::to_string(sequence.first)));
   }
   const std::size_t before = problems.problems().size();
   checkSize(sequence, problems);
@@ -197,16 +193,6 @@ Result<Carried> decodeCarried(std::string_view json) {
   }
   if (problems.empty()) return carried;
   return std::move(problems).take();
-}
-
-Json toJson(const Carried& carried) {
-  return encodeValue(carried);
-}
-Json toJson(const SequenceFrame& frame) {
-  return encodeValue(frame);
-}
-Json toJson(const SequenceReport& report) {
-  return encodeValue(report);
 }
 
 } // namespace gnomon

@@ -1,30 +1,77 @@
-#include "protocol/evaluation/evaluation_json.h"
+#include "protocol/evaluation/evaluation.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <vector>
 
-#include "protocol/evaluation/patch_checks.h"
-#include "protocol/evaluation/sweeps.h"
-#include "protocol/fields/field_decode.h"
-#include "protocol/fields/field_encode.h"
-#include "protocol/spec/rules.h"
+#include "protocol/fields/field_codec.h"
+#include "protocol/fields/field_list.h"
 #include "protocol/spec/validate.h"
 
 namespace gnomon {
 namespace {
 
+bool isField(const std::string& path) {
+  static const std::vector<FieldEntry> fields = frameFields();
+  return std::any_of(fields.begin(), fields.end(), [&](const FieldEntry& field) {
+    return field.path.starts_with(path) &&
+           (field.path.size() == path.size() || field.path[path.size()] == '.' || field.path[path.size()] == '[');
+  });
+}
+
+void checkRemovalsAt(const Json& patch, const std::string& path, const Place& place, ProblemList& problems) {
+  for (const auto& [key, value] : patch.items()) {
+    const Place inner(place, key);
+    const std::string innerPath = path.empty() ? key : path + "." + key;
+    if (value.is_object()) checkRemovalsAt(value, innerPath, inner, problems);
+    if (!value.is_null() || isField(innerPath)) continue;
+    problems.add(invalidValue(inner.pointer(), "Unknown field; nothing to remove."));
+  }
+}
+
+} // namespace
+
+Problems within(Problems problems, const std::string& place) {
+  for (Problem& problem : problems) problem.pointer.insert(0, place);
+  return problems;
+}
+
+void checkRemovals(const Json& patch, ProblemList& problems) {
+  checkRemovalsAt(patch, "", Place(), problems);
+}
+
+void checkSpecRules(const FrameSpec& spec, ProblemList& problems) {
+  std::vector<BrokenRule> rules = brokenRules(spec);
+  for (BrokenRule& rule : rules) {
+    rule.problem.pointer.insert(0, "/spec");
+    for (std::string& read : rule.reads) read.insert(0, "/spec");
+  }
+  for (Problem& problem : problemsBeyond(problems.problems(), rules)) problems.add(std::move(problem));
+}
+
+Json writtenSpec(const Json& request) {
+  const auto spec = request.find("spec");
+  return spec != request.end() && spec->is_object() ? *spec : Json::object();
+}
+
+void addPatchProblems(const Problems& found, const Problems& known, const std::string& place, ProblemList& problems) {
+  for (const Problem& problem : found) {
+    const bool isKnown = std::any_of(known.begin(), known.end(), [&](const Problem& earlier) {
+      return earlier.pointer == "/spec" + problem.pointer;
+    });
+    if (!isKnown) problems.add(within({problem}, place).front());
+  }
+}
+
+namespace {
+
 /// What is wrong with a path besides its values.
 void checkPath(const CameraPath& path, ProblemList& problems) {
   if (path.cameras.has_value() == path.step.has_value()) {
-    problems.add({.code = ProblemCode::invalidValue,
-                  .pointer = "/path",
-                  .detail = "Give either `cameras` or `step`.",
-                  .limit = "cameras | step",
-                  .actual = path.step ? "both" : "neither"});
+    problems.add(
+        invalidValue("/path", "Give either `cameras` or `step`.", "cameras | step", path.step ? "both" : "neither"));
   } else if (path.frames && !path.step) {
-    problems.add({.code = ProblemCode::invalidValue,
-                  .pointer = "/path/frames",
-                  .detail = "frames counts steps; a list of cameras has its own length."});
+    problems.add(invalidValue("/path/frames", "frames counts steps; a list of cameras has its own length."));
   }
   for (std::size_t i = 0; path.cameras && i < path.cameras->size(); ++i) {
     std::vector<BrokenRule> broken;
@@ -34,9 +81,7 @@ void checkPath(const CameraPath& path, ProblemList& problems) {
 }
 
 Problem targetProblem(const std::string& pointer) {
-  return {.code = ProblemCode::invalidValue,
-          .pointer = pointer,
-          .detail = "An evaluation measures given settings: leave out the target `quality`."};
+  return invalidValue(pointer, "An evaluation measures given settings: leave out the target `quality`.");
 }
 
 /// Reads variants over a spec that may have problems of its own, which are not reported again.
@@ -88,10 +133,7 @@ std::vector<Variant> readVariants(const EvaluationRequest& request, const Json& 
 } // namespace
 
 bool decodePatch(const JsonNode& node, const Place& place, ProblemList& problems, void* out) {
-  if (!std::holds_alternative<JsonNode::Object>(node.value)) {
-    addWrongType(node, "an object", place, problems);
-    return false;
-  }
+  if (!std::holds_alternative<JsonNode::Object>(node.value)) return addWrongType(node, "an object", place, problems);
   valueAs<SpecPatch>(out).json = jsonOf(node).dump();
   return true;
 }
@@ -120,10 +162,8 @@ Result<Evaluation> decodeEvaluation(std::string_view json) {
   const Json document = jsonOf(*root);
   const bool given[] = {document.contains("variants"), document.contains("sweep")};
   if (document.is_object() && given[0] == given[1]) {
-    problems.add({.code = ProblemCode::invalidValue,
-                  .detail = "Give either `variants` or `sweep`.",
-                  .limit = "variants | sweep",
-                  .actual = given[0] ? "both" : "neither"});
+    problems.add(
+        invalidValue("", "Give either `variants` or `sweep`.", "variants | sweep", given[0] ? "both" : "neither"));
   } else if (request.variants || request.sweep) {
     evaluation.variants = readVariants(request, writtenSpec(document), problems);
   }
@@ -131,24 +171,9 @@ Result<Evaluation> decodeEvaluation(std::string_view json) {
   return std::move(problems).take();
 }
 
-Json toJson(const EvaluationReport& report) {
-  return encodeValue(report);
-}
-Json toJson(const EvaluationRow& row) {
-  return encodeValue(row);
-}
-Json toJson(const EvaluationStep& step) {
-  return encodeValue(step);
-}
-
 std::optional<EvaluationReport> readEvaluationReport(std::string_view json) {
-  const Json document = Json::parse(json, nullptr, false);
-  if (!document.is_object() || !document.contains("rows")) return std::nullopt;
-  EvaluationReport report;
-  ProblemList unknown;
-  decodeValue(nodeOf(document), Notes{}, Place(), unknown, report);
-  if (report.rows.empty()) return std::nullopt;
-  return report;
+  auto report = readReply<EvaluationReport>(json, {"rows"});
+  return report && !report->rows.empty() ? report : std::nullopt;
 }
 
 } // namespace gnomon

@@ -1,6 +1,8 @@
-#include "protocol/sequence/carry.h"
-
 #include <algorithm>
+#include <string>
+#include <utility>
+
+#include "protocol/sequence/sequence.h"
 
 namespace gnomon {
 namespace {
@@ -64,6 +66,39 @@ void makeStable(FrameSpec& spec, const Json& written, const Carried& before) {
     }
     steady(*shadow, memberOf(lights[i], "shadow"), range);
   }
+}
+
+namespace {
+
+std::string sizeText(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+} // namespace
+
+FrameSpec videoFrame(FrameSpec spec) {
+  spec.views.resize(1);
+  spec.output.format = ImageFormat::png; // whose pixels are those of a picture that is seen
+  spec.output.pngBits = 8;
+  return spec;
+}
+
+void FrameSizes::see(const FrameSpec& spec) {
+  if (seen_ == 0) {
+    width_ = spec.width;
+    height_ = spec.height;
+  }
+  const bool isOther = spec.width != width_ || spec.height != height_;
+  if (isOther && !other_) other_ = {seen_, spec.width, spec.height};
+  ++seen_;
+}
+
+std::optional<Problem> FrameSizes::problem(const Sequence& sequence) const {
+  if (!other_) return std::nullopt;
+  return invalidValue(
+      framePlace(sequence, sequence.first + other_->number) + (other_->width != width_ ? "/width" : "/height"),
+      "All frames of a video have the size of its first.", sizeText(width_, height_),
+      sizeText(other_->width, other_->height));
 }
 
 } // namespace gnomon

@@ -1,0 +1,128 @@
+"""gnomon render in its own process: the files that it writes, and what it says."""
+
+import json
+import os
+import unittest
+import zipfile
+from pathlib import Path
+
+from command_line import BOX, OK, PROBLEM, SMALL, USAGE, CommandLine, gnomon, split_glb
+from shipped_server import EXR_MAGIC, png_size
+
+
+class Render(CommandLine):
+    def test_a_frame_is_a_file_and_nothing_is_said(self):
+        run = self.render("--sun", "135,40")
+        self.assertEqual(png_size(self.output.read_bytes()), (64, 48))
+        self.assertEqual((run.stdout, run.stderr), (b"", b""))
+        self.assertEqual(os.listdir(self.folder), ["frame.png"])
+
+    def test_what_is_repaired_is_told_and_can_be_refused(self):
+        longer = self.folder / "longer.glb"
+        longer.write_bytes(Path(BOX).read_bytes() + b"past the end")
+        expected = self.render("--sun", "135,40") and self.output.read_bytes()
+        said = self.render("--sun", "135,40", scene=str(longer)).stderr.decode()
+        self.assertRegex(said, "^gnomon: warning: The GLB has bytes after its end; [^\n]*\n$")
+        self.assertEqual(self.output.read_bytes(), expected)
+        both = gnomon("render", str(longer), BOX, "-o", str(self.folder / "{scene}.png"), *SMALL)
+        self.assert_ends(both, OK, f"gnomon: warning: {longer}: The GLB has bytes after its end; ")
+        for command in (["render", str(longer), "-o", str(self.output)], ["inspect", str(longer)], ["plan", str(longer)]):
+            self.assert_ends(gnomon(*command, "--strict"), PROBLEM, "after its end")
+        self.assert_ends(gnomon("inspect", BOX, "--strict"), OK)
+
+    def test_an_image_that_is_missing_is_left_out(self):
+        scene = Path(split_glb(Path(BOX).read_bytes(), self.folder))
+        document = json.loads(scene.read_text())
+        document["images"] = [{"uri": "textures\\gone.png"}]
+        document["textures"] = [{"source": 0}]
+        for material in document["materials"]:
+            material.setdefault("pbrMetallicRoughness", {})["baseColorTexture"] = {"index": 0}
+        scene.write_text(json.dumps(document))
+        self.assert_ends(self.render(scene=str(scene)), OK, "gnomon: warning: ", "textures/gone.png")
+
+    def test_the_suffix_is_the_format(self):
+        self.output = self.folder / "frame.exr"
+        self.render("--view", "color", "--view", "depth")
+        self.assertEqual(self.output.read_bytes()[:4], EXR_MAGIC)
+        for suffix, magic in (("npy", b"\x93NUMPY"), ("npz", b"PK\3\4"), ("tiff", b"II*\0"), ("tif", b"II*\0"),
+                              ("jpg", b"\xff\xd8\xff"), ("jpeg", b"\xff\xd8\xff"), ("webp", b"RIFF")):
+            self.output = self.folder / f"frame.{suffix}"
+            self.render()
+            self.assertTrue(self.output.read_bytes().startswith(magic), suffix)
+
+    def test_one_npz_holds_every_view(self):
+        self.output = self.folder / "frame.npz"
+        self.render("--view", "color", "--view", "depth")
+        with zipfile.ZipFile(self.output) as archive:
+            self.assertEqual(archive.namelist(), ["color.npy", "depth.npy", "report.json"])
+        self.assertEqual(os.listdir(self.folder), ["frame.npz"])
+
+    def test_folders_are_made(self):
+        self.output = self.folder / "some" / "where" / "frame.png"
+        report = self.folder / "reports" / "report.json"
+        self.render("--report", str(report))
+        self.assertTrue(self.output.exists() and report.exists())
+        run = gnomon("render", BOX, *SMALL, "-o", str(self.output / "frame.png"))
+        self.assert_ends(run, PROBLEM, f"The folder {self.output} can't be made")
+
+    def test_several_views_are_several_files(self):
+        run = self.render("--view", "color", "--view", "shadow")
+        self.assertEqual(sorted(os.listdir(self.folder)), ["frame.color.png", "frame.shadow.png"])
+        self.assertEqual(run.stdout.decode().splitlines(), [str(self.folder / "frame.color.png"), str(self.folder / "frame.shadow.png")])
+
+    def test_standard_input_and_output(self):
+        spec = json.dumps({"width": 64, "height": 48, "views": ["normal"]}).encode()
+        run = gnomon("render", BOX, "--spec", "-", "-o", "-", stdin=spec)
+        self.assert_ends(run, OK)
+        self.render("--view", "normal")
+        self.assertEqual(run.stdout, self.output.read_bytes())
+
+    def test_the_report_can_be_asked_for_again(self):
+        report = self.folder / "report.json"
+        self.render("--orbit", "200,30", "--set", "shadow.cascadeCount=2", "--report", str(report))
+        first = self.output.read_bytes()
+        told = json.loads(report.read_text())
+        self.assertEqual(told["spec"]["shadow"]["cascadeCount"], 2)
+        self.assertIn("load", told["stages"])
+        self.assertIn("encode", told["stages"])
+        spec = self.folder / "spec.json"
+        spec.write_text(json.dumps(told["spec"]))
+        self.assert_ends(gnomon("render", BOX, "-o", str(self.output), "--spec", str(spec)), OK)
+        self.assertEqual(self.output.read_bytes(), first)
+
+    def test_a_reference_stands_beside_the_frame(self):
+        report = self.folder / "report.json"
+        flags = ["--sun", "135,40", "--view", "shadow", "--set", "shadow.filter.type=hard", "--set", "shadow.size=XSmall"]
+        run = self.render(*flags, "--reference", "--report", str(report))
+        *names, error = run.stdout.decode().splitlines()
+        reference = self.folder / "frame.reference.png"
+        self.assertEqual(names, [str(self.output), str(reference)])
+        told = json.loads(report.read_text())
+        metrics = told["reference"]["metrics"]
+        self.assertGreater(metrics["misclassified"], 0)
+        self.assertTrue(error.startswith("wrong {:.4f} % ".format(100 * metrics["misclassified"])), error)
+        self.assertEqual(told["spec"]["lights"][0]["shadow"]["technique"], "shadowMap")
+        frame, truth = self.output.read_bytes(), reference.read_bytes()
+        self.assertNotEqual(frame, truth)
+        self.render(*flags)
+        self.assertEqual(self.output.read_bytes(), frame)
+        self.render(*flags, "--set", "shadow.technique=rayTraced")
+        self.assertEqual(self.output.read_bytes(), truth)
+        self.render("--set", "shadow.technique=rayTraced", "--reference", "--report", "-")
+        self.assertEqual(self.output.read_bytes(), reference.read_bytes())
+
+    def test_a_reference_that_can_not_be_is_told(self):
+        run = gnomon("render", BOX, "-o", str(self.output), *SMALL, "--reference", "--set", "shadow.enabled=false")
+        self.assert_ends(run, PROBLEM, "(error)", "shadow")
+        self.assert_ends(gnomon("render", BOX, "-o", "-", "--format", "png", "--reference"), USAGE, "--reference")
+
+    def test_a_gltf_finds_the_files_beside_it(self):
+        gltf = split_glb(Path(BOX).read_bytes(), self.folder)
+        self.render()
+        expected = self.output.read_bytes()
+        self.render(scene=gltf)
+        self.assertEqual(self.output.read_bytes(), expected)
+
+
+if __name__ == "__main__":
+    unittest.main()
