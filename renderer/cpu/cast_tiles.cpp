@@ -7,6 +7,9 @@
 #include "renderer/cpu/camera_survey.h"
 #include "renderer/cpu/shadow/moments.h"
 #include "renderer/cpu/surface/material_holes.h"
+#include "renderer/device/shader_data.h"
+#include "renderer/device/view_image.h"
+#include "renderer/prepare/named_tiles.h"
 
 namespace gnomon::cpu {
 namespace {
@@ -82,6 +85,39 @@ RasteredTile emptyTile(const ShadowTile& tile, int samples, TileStore& store) {
   return made;
 }
 
+std::vector<TileMap> tileMaps(const ShadowPlan& plan, const CastTiles& cast) {
+  std::vector<TileMap> maps;
+  for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
+    const RasteredTile* tile = cast.tiles[i].get();
+    maps.push_back({plan.tiles[i].rect, tile ? &tile->depths : nullptr,
+                    tile ? std::span<const glm::vec4>(tile->moments) : std::span<const glm::vec4>{}});
+  }
+  return maps;
+}
+
+/// The nearest depth of each texel, put into the atlas row by row from the bottom.
+void addDepths(const ShadowTile& tile, const DepthBuffer& depths, const Rect& of, std::vector<float>& out) {
+  for (int y = 0; y < tile.rect.height; ++y) {
+    for (int x = 0; x < tile.rect.width; ++x) {
+      float nearest = 1;
+      for (int s = 0; s < depths.samples; ++s) nearest = std::min(nearest, depths.depths[depths.at(x, y, s)]);
+      const auto at = static_cast<std::size_t>(tile.rect.y - of.y + y) * static_cast<std::size_t>(of.width) +
+                      static_cast<std::size_t>(tile.rect.x - of.x + x);
+      out[at] = nearest;
+    }
+  }
+}
+
+Image depthsIn(const ShadowPlan& plan, const CastTiles& cast, const Rect& rect, const ShadowTile* only,
+               const ViewRequest& request) {
+  std::vector<float> depths(static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height), 1.0f);
+  for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
+    const ShadowTile& tile = plan.tiles[i];
+    if (cast.tiles[i] && (only == nullptr || only == &tile)) addDepths(tile, cast.tiles[i]->depths, rect, depths);
+  }
+  return depthImage(rect.width, rect.height, depths, request.encoded, request.fine);
+}
+
 } // namespace
 
 CastTiles castTiles(const CastInput& input, TileStore& store) {
@@ -153,6 +189,19 @@ DepthBuffer numberedTile(const CastInput& input, const ShadowTile& tile, const L
   const TileCasters casters = castersInto(tile, light, input.scene.view, input.scene.geometry, input.nodes);
   rasterCasters(input, tile, light, rasterDraws(input.scene, casters.use, casters.slots), nullptr, buffer);
   return buffer;
+}
+
+ShownLights::ShownLights(const ShadowPlan& plan, std::span<const LitLight> lights, const CastTiles& cast)
+    : lights_(lightData(lights)),
+      tiles_(tileData(plan)),
+      maps_(tileMaps(plan, cast)),
+      atlas_(plan.atlasWidth, plan.atlasHeight) {}
+
+Image atlasPicture(const ShowInput& input, const ViewRequest& request, const CastTiles& cast) {
+  if (request.view == View::tile) return depthsIn(input.plan, cast, input.tile->rect, input.tile, request);
+  const Rect whole{0, 0, input.plan.atlasWidth, input.plan.atlasHeight};
+  Image image = depthsIn(input.plan, cast, whole, nullptr, request);
+  return request.encoded ? namedTiles(image, input.plan) : image;
 }
 
 } // namespace gnomon::cpu

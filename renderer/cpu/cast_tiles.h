@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/cpu/raster/raster.h"
+#include "renderer/cpu/shadow/shadow_maps.h"
 #include "renderer/cpu/surface/textures.h"
 #include "renderer/cpu/tile_store.h"
 #include "renderer/device/device.h"
@@ -45,5 +46,23 @@ void makeTexels(const CastInput& input, std::span<const TexelMarks> read, CastTi
 /// The tile's casters once more, with the number of the triangle nearest to the light in each texel; one sample a
 /// texel.
 DepthBuffer numberedTile(const CastInput& input, const ShadowTile& tile, const Light& light);
+
+/// The lights and tiles of a frame as kernels read them. Refers to the tiles.
+class ShownLights {
+ public:
+  ShownLights(const ShadowPlan& plan, std::span<const LitLight> lights, const CastTiles& cast);
+
+  ShadowMaps maps(std::span<const Layer> layers) const { return {lights_, tiles_, maps_, atlas_, layers}; }
+
+ private:
+  std::vector<shared::LightData> lights_;
+  std::vector<shared::TileData> tiles_;
+  std::vector<TileMap> maps_;
+  glm::vec2 atlas_;
+};
+
+/// View `atlas` or `tile`, as `request` asks: the depths of all tiles, or of the input's. REQUIRES: all of their texels
+/// are made.
+Image atlasPicture(const ShowInput& input, const ViewRequest& request, const CastTiles& cast);
 
 } // namespace gnomon::cpu

@@ -5,7 +5,7 @@
 namespace gnomon {
 
 struct CpuOptions {
-  std::size_t tileBytes = 1u << 28; ///< shadow tiles kept for later frames; 0 = every tile is drawn anew
+  std::size_t tileBytes = 1u << 28; ///< shadow tiles kept for later frames; 0 = every tile is drawn again
 };
 
 /// A device that draws by the processor alone, on all cores that the process is granted: no display, no driver. Its

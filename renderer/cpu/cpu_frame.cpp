@@ -7,12 +7,11 @@
 #include "protocol/spec/frame_lights.h"
 #include "protocol/spec/traits.h"
 #include "renderer/core/parallel.h"
-#include "renderer/cpu/atlas_picture.h"
+#include "renderer/cpu/cast_tiles.h"
 #include "renderer/cpu/shadow/map_queries.h"
 #include "renderer/cpu/shadow/probe.h"
 #include "renderer/cpu/shadow/read_texels.h"
 #include "renderer/cpu/show/read_textures.h"
-#include "renderer/cpu/shown_lights.h"
 
 namespace gnomon::cpu {
 namespace {

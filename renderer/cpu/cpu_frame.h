@@ -7,10 +7,9 @@
 
 #include "renderer/cpu/camera_survey.h"
 #include "renderer/cpu/cast_tiles.h"
-#include "renderer/cpu/exact_layers.h"
+#include "renderer/cpu/picture_layers.h"
 #include "renderer/cpu/scene_cache.h"
 #include "renderer/cpu/show/show_view.h"
-#include "renderer/cpu/volume_layers.h"
 #include "renderer/device/device.h"
 
 namespace gnomon::cpu {
@@ -51,7 +50,7 @@ class CpuFrame : public FrameDrawing {
   CameraRaster camera() const;
   CastInput castInput(const ShadowPlan& plan) const;
   DepthBuffer& surfaces(int samples);
-  Status needHoles(); ///< textures that tell where surfaces have holes
+  Status needHoles(); ///< textures that say where surfaces have holes
   /// Of all that may be seen, where some of them were never read; none else: kernels make levels that they lack.
   const std::vector<ReadTexture>& missingTextures(int samples);
   Status needLayers(int samples);

@@ -2,7 +2,7 @@
 
 #include <exception>
 
-#include "renderer/gl/gl.h"
+#include "renderer/gl/object.h"
 
 namespace gnomon::gl {
 namespace {
@@ -82,7 +82,7 @@ std::vector<std::string> takeDebugErrors() {
     codes.push_back(errorName(code));
   }
   Log log = std::exchange(threadLog, {});
-  if (log.messages.empty()) log.messages = std::move(codes); // else the messages tell the same better
+  if (log.messages.empty()) log.messages = std::move(codes); // else the messages say the same better
   if (log.dropped > 0) log.messages.push_back("and " + std::to_string(log.dropped) + " more");
   return std::move(log.messages);
 }

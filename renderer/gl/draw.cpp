@@ -29,12 +29,8 @@ VertexArray::VertexArray(std::span<const VertexStream> streams, std::span<const 
   for (const VertexAttribute& attribute : attributes) {
     glEnableVertexArrayAttrib(id(), attribute.location);
     glVertexArrayAttribBinding(id(), attribute.location, attribute.stream);
-    if (attribute.integer) {
-      glVertexArrayAttribIFormat(id(), attribute.location, attribute.components, attribute.type, attribute.offset);
-    } else {
-      glVertexArrayAttribFormat(id(), attribute.location, attribute.components, attribute.type,
-                                attribute.normalized ? GL_TRUE : GL_FALSE, attribute.offset);
-    }
+    glVertexArrayAttribFormat(id(), attribute.location, attribute.components, attribute.type,
+                              attribute.normalized ? GL_TRUE : GL_FALSE, attribute.offset);
   }
   if (indices) glVertexArrayElementBuffer(id(), indices->id());
 }

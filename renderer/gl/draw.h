@@ -30,7 +30,6 @@ struct VertexAttribute {
   int components = 4;
   GLenum type = GL_FLOAT;
   bool normalized = false; ///< integers become 0..1 or -1..1
-  bool integer = false;    ///< integers stay integers (uint/int inputs)
   GLuint offset = 0;       ///< bytes from the start of the vertex
 };
 

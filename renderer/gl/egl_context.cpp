@@ -14,7 +14,6 @@
 #include "protocol/base/result.h"
 #include "renderer/gl/context_setup.h"
 #include "renderer/gl/debug_log.h"
-#include "renderer/gl/function_table.h"
 
 namespace gnomon::gl {
 namespace {

@@ -46,13 +46,13 @@ Result<Framebuffer> Framebuffer::create(const Attachments& attachments, std::str
   for (int i = 0; i < framebuffer.colors_; ++i) {
     const Attachment& color = attachments.color[static_cast<std::size_t>(i)];
     if (color.texture->shape().layers > 0) {
-      glNamedFramebufferTextureLayer(id, colorAttachment(i), color.texture->id(), color.level, color.layer);
+      glNamedFramebufferTextureLayer(id, colorAttachment(i), color.texture->id(), 0, color.layer);
     } else {
-      glNamedFramebufferTexture(id, colorAttachment(i), color.texture->id(), color.level);
+      glNamedFramebufferTexture(id, colorAttachment(i), color.texture->id(), 0);
     }
   }
   if (const Attachment& depth = attachments.depth; depth.texture) {
-    glNamedFramebufferTexture(id, depthAttachment(depth.texture->shape().format), depth.texture->id(), depth.level);
+    glNamedFramebufferTexture(id, depthAttachment(depth.texture->shape().format), depth.texture->id(), 0);
   }
   std::vector<GLenum> targets(static_cast<std::size_t>(std::max(1, framebuffer.colors_)), GL_NONE);
   for (int i = 0; i < framebuffer.colors_; ++i) targets[static_cast<std::size_t>(i)] = colorAttachment(i);

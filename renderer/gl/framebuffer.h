@@ -15,7 +15,6 @@ namespace gnomon::gl {
 
 struct Attachment {
   const Texture* texture = nullptr;
-  int level = 0;
   int layer = 0; ///< of an array
 };
 

@@ -1,10 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <glad/gl.h>
 #include <string_view>
 #include <utility>
-
-#include "renderer/gl/gl.h"
 
 namespace gnomon::gl {
 

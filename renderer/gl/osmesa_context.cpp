@@ -6,7 +6,6 @@
 
 #include "renderer/gl/context_setup.h"
 #include "renderer/gl/debug_log.h"
-#include "renderer/gl/function_table.h"
 
 namespace gnomon::gl {
 namespace {

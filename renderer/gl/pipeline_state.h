@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "renderer/core/rect.h"
-#include "renderer/gl/gl.h"
+#include "renderer/gl/object.h"
 
 namespace gnomon::gl {
 

@@ -44,11 +44,6 @@ GLuint makeSampler(const SamplerState& state, std::string_view label) {
   set(id, GL_TEXTURE_MAG_FILTER, state.magFilter);
   set(id, GL_TEXTURE_WRAP_S, state.wrapS);
   set(id, GL_TEXTURE_WRAP_T, state.wrapT);
-  if (state.compare != GL_NONE) {
-    set(id, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-    set(id, GL_TEXTURE_COMPARE_FUNC, state.compare);
-  }
-  glSamplerParameterfv(id, GL_TEXTURE_BORDER_COLOR, state.borderColor.data());
   setLabel(GL_SAMPLER, id, label);
   return id;
 }
@@ -111,11 +106,6 @@ void Texture::write(int level, TexelLayout layout, std::span<const std::byte> te
   const Rect all{0, 0, sizeAt(shape_.width, level), sizeAt(shape_.height, level)};
   assert(level >= 0 && level < shape_.levels && texels.size() == bytesOf(all, layout));
   glTextureSubImage2D(id(), level, 0, 0, all.width, all.height, layout.format, layout.type, texels.data());
-}
-
-void Texture::writeRect(const Rect& rect, TexelLayout layout, std::span<const std::byte> texels) {
-  assert(texels.size() == bytesOf(rect, layout));
-  glTextureSubImage2D(id(), 0, rect.x, rect.y, rect.width, rect.height, layout.format, layout.type, texels.data());
 }
 
 void Texture::writeLayer(int layer, TexelLayout layout, std::span<const std::byte> texels) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <span>
@@ -48,8 +47,6 @@ class Texture {
 
   /// Writes the whole of a level. REQUIRES: texels has exactly the level's bytes.
   void write(int level, TexelLayout layout, std::span<const std::byte> texels);
-  /// Writes a rectangle of the first level. REQUIRES: texels has exactly its bytes.
-  void writeRect(const Rect& rect, TexelLayout layout, std::span<const std::byte> texels);
   /// Writes the whole of a layer. REQUIRES: an array; texels has exactly the layer's bytes.
   void writeLayer(int layer, TexelLayout layout, std::span<const std::byte> texels);
   /// The texels of a rectangle of a level. Waits for the GPU. REQUIRES: texels has room for them.
@@ -78,10 +75,6 @@ struct SamplerState {
   GLenum magFilter = GL_LINEAR;
   GLenum wrapS = GL_CLAMP_TO_EDGE;
   GLenum wrapT = GL_CLAMP_TO_EDGE;
-  GLenum compare = GL_NONE; ///< GL_NONE, or a comparison such as GL_LEQUAL for sampler2DShadow
-  std::array<float, 4> borderColor{};
-
-  bool operator==(const SamplerState&) const = default;
 };
 
 class Sampler {

@@ -11,29 +11,29 @@ static_assert(sizeof(DrawRange) == sizeof(gl::DrawCommand) &&
 
 /// Of streams that hold positions, VertexAttributes and instances.
 std::vector<gl::VertexAttribute> positionAttributes() {
-  std::vector<gl::VertexAttribute> attributes{{GNOMON_POSITION, 0, 3, GL_FLOAT, false, false, 0}};
+  std::vector<gl::VertexAttribute> attributes{{GNOMON_POSITION, 0, 3, GL_FLOAT, false, 0}};
   for (GLuint row = 0; row < 3; ++row) {
     const auto offset = static_cast<GLuint>(row * sizeof(glm::vec4));
-    attributes.push_back({GNOMON_INSTANCE_ROWS + row, 2, 4, GL_FLOAT, false, false, offset});
+    attributes.push_back({GNOMON_INSTANCE_ROWS + row, 2, 4, GL_FLOAT, false, offset});
   }
   const auto lastRow = static_cast<GLuint>(offsetof(shared::InstanceData, normalFromLocal) + 2 * sizeof(glm::vec4));
-  attributes.push_back({GNOMON_NODE, 2, 4, GL_FLOAT, false, false, lastRow});
+  attributes.push_back({GNOMON_NODE, 2, 4, GL_FLOAT, false, lastRow});
   return attributes;
 }
 
 std::vector<gl::VertexAttribute> allAttributes() {
   std::vector<gl::VertexAttribute> attributes = positionAttributes();
   const std::array<gl::VertexAttribute, 5> shaded{{
-      {GNOMON_NORMAL, 1, 3, GL_FLOAT, false, false, offsetof(VertexAttributes, normal)},
-      {GNOMON_TANGENT, 1, 4, GL_FLOAT, false, false, offsetof(VertexAttributes, tangent)},
-      {GNOMON_UV0, 1, 2, GL_FLOAT, false, false, offsetof(VertexAttributes, uv0)},
-      {GNOMON_UV1, 1, 2, GL_FLOAT, false, false, offsetof(VertexAttributes, uv1)},
-      {GNOMON_COLOR, 1, 4, GL_UNSIGNED_SHORT, true, false, offsetof(VertexAttributes, color)},
+      {GNOMON_NORMAL, 1, 3, GL_FLOAT, false, offsetof(VertexAttributes, normal)},
+      {GNOMON_TANGENT, 1, 4, GL_FLOAT, false, offsetof(VertexAttributes, tangent)},
+      {GNOMON_UV0, 1, 2, GL_FLOAT, false, offsetof(VertexAttributes, uv0)},
+      {GNOMON_UV1, 1, 2, GL_FLOAT, false, offsetof(VertexAttributes, uv1)},
+      {GNOMON_COLOR, 1, 4, GL_UNSIGNED_SHORT, true, offsetof(VertexAttributes, color)},
   }};
   attributes.insert(attributes.end(), shaded.begin(), shaded.end());
   for (GLuint row = 0; row < 2; ++row) {
     const auto offset = static_cast<GLuint>(offsetof(shared::InstanceData, normalFromLocal) + row * sizeof(glm::vec4));
-    attributes.push_back({GNOMON_NORMAL_ROWS + row, 2, 4, GL_FLOAT, false, false, offset});
+    attributes.push_back({GNOMON_NORMAL_ROWS + row, 2, 4, GL_FLOAT, false, offset});
   }
   return attributes;
 }
@@ -55,7 +55,7 @@ SceneVertices mappedVertices(const GpuMappedScene& scene, const gl::Buffer& inst
                                                  {&instances, sizeof(shared::InstanceData), 0, 1},
                                                  {&scene.places, sizeof(glm::vec2), 0, 0}}};
   std::vector<gl::VertexAttribute> attributes = allAttributes();
-  attributes.push_back({GNOMON_MAP_PLACE, 3, 2, GL_FLOAT, false, false, 0});
+  attributes.push_back({GNOMON_MAP_PLACE, 3, 2, GL_FLOAT, false, 0});
   return {{streams, attributes, &scene.indices, "mapped vertices"}, {}};
 }
 

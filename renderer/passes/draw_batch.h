@@ -64,7 +64,7 @@ void drawGroup(const DrawBatch& batch, const DrawGroup& group, const SceneVertic
 /// The state that a group adds to its pass's.
 void applyFacing(Facing facing, gl::PipelineState& state);
 
-/// Binds the textures that a material has to their units, and tells the program which material it is.
+/// Binds the textures that a material has to their units, and sets which material the program draws.
 void bindMaterial(const GpuScene& scene, int material, const gl::Program& program);
 
 } // namespace gnomon

@@ -9,7 +9,6 @@
 #include "renderer/gl/debug_log.h"
 #include "renderer/passes/views/map_queries.h"
 #include "renderer/passes/views/read_back.h"
-#include "renderer/passes/views/shown_triangles.h"
 #include "renderer/resolve/plan_input.h"
 
 namespace gnomon {
@@ -18,6 +17,88 @@ namespace {
 
 const SceneView& viewOf(const FrameWork& work) {
   return work.scene->scenes[static_cast<std::size_t>(work.frame.scene)];
+}
+
+/// What the passes of a frame returned.
+struct PassResults {
+  const Survey& survey;
+  const ShadowAtlas& atlas;
+  const DrawnViews& drawn;
+  const GpuScene& gpu;
+  std::span<const ViewRequest> views; ///< that were shown
+};
+
+PassReport passReport(const char* name, const gl::Timer& timer, std::uint64_t drawCalls, std::uint64_t triangles) {
+  PassReport pass;
+  pass.pass = name;
+  pass.cpuMilliseconds = timer.cpuMilliseconds();
+  pass.gpuMilliseconds = timer.gpuMilliseconds();
+  pass.drawCalls = drawCalls;
+  pass.triangles = triangles;
+  return pass;
+}
+
+std::vector<PassReport> passReports(const PassResults& results) {
+  const Survey& survey = results.survey;
+  std::vector<PassReport> passes{passReport("survey", survey.timer, survey.drawCalls, survey.triangles)};
+  if (results.atlas.timer.stopped()) {
+    std::uint64_t triangles = 0;
+    for (const TileCounts& tile : results.atlas.tiles) triangles += tile.casterTriangles;
+    passes.push_back(passReport("shadow", results.atlas.timer, results.atlas.drawCalls, triangles));
+  }
+  for (const auto& [samples, surfaces] : results.drawn.surfaces) {
+    passes.push_back(passReport("surfaces", surfaces.timer, surfaces.drawCalls, surfaces.triangles));
+  }
+  for (const auto& [samples, layers] : results.drawn.volumes) {
+    passes.push_back(passReport("volumes", layers.timer, 0, 0));
+  }
+  for (const auto& [samples, exact] : results.drawn.exactShadows) {
+    passes.push_back(passReport("visibility", exact.timer, exact.drawCalls, exact.triangles));
+  }
+  for (std::size_t i = 0; i < results.drawn.views.size(); ++i) {
+    const DrawnView& view = results.drawn.views[i];
+    if (!view.timer.stopped()) continue; // read from a target that is there anyway
+    passes.push_back(passReport("view", view.timer, 1, 1));
+    passes.back().view = results.views[i].view;
+  }
+  return passes;
+}
+
+MemoryReport memoryOf(const PassResults& results) {
+  MemoryReport memory;
+  memory.scene = results.gpu.bytes + results.gpu.materialData.bytes();
+  memory.atlas = results.atlas.textures->bytes();
+  memory.targets = results.survey.depth.bytes();
+  for (const auto& [samples, surfaces] : results.drawn.surfaces) memory.targets += surfaces.bytes();
+  for (const auto& [samples, exact] : results.drawn.exactShadows) {
+    memory.targets += exact.layers.texture.bytes() + exact.countBytes;
+  }
+  for (const auto& [samples, layers] : results.drawn.volumes) memory.targets += layers.picture.bytes();
+  memory.targets += results.drawn.casters.bytes() + results.drawn.flatAtlas.bytes();
+  for (const DrawnView& view : results.drawn.views) memory.targets += view.color.bytes();
+  return memory;
+}
+
+TileFacts tileFacts(const TileCounts& counts) {
+  TileFacts facts{counts.casterTriangles, counts.culledTriangles, counts.drawCalls, counts.reused};
+  if (counts.timer.stopped()) facts.time = WorkTime{counts.timer.cpuMilliseconds(), counts.timer.gpuMilliseconds()};
+  return facts;
+}
+
+/// What they say of the frame, but for its stages. Reads the timers, so that it waits for the device if that is not
+/// done.
+FrameFacts factsOf(const PassResults& results) {
+  FrameFacts facts;
+  for (const TileCounts& counts : results.atlas.tiles) facts.tiles.push_back(tileFacts(counts));
+  for (const auto& [samples, exact] : results.drawn.exactShadows) {
+    facts.layers.insert(facts.layers.end(), exact.lights.begin(), exact.lights.end());
+  }
+  facts.passes = passReports(results);
+  facts.surveyedTriangles = results.survey.triangles;
+  for (const auto& [samples, surfaces] : results.drawn.surfaces) facts.shadedTriangles += surfaces.triangles;
+  facts.otherDrawCalls = results.drawn.casters.drawCalls;
+  facts.memory = memoryOf(results);
+  return facts;
 }
 
 } // namespace
@@ -152,81 +233,6 @@ Result<FrameFacts> GlFrame::finish() {
   if (const Status clean = gl::checkErrors("rendering a frame"); !clean) return clean.problems();
   FrameFacts facts = factsOf({survey_, atlas_, drawn_, gpu_, shown_ ? shown_->views : std::span<const ViewRequest>{}});
   facts.stages = clock_.take();
-  return facts;
-}
-
-namespace {
-
-PassReport passReport(const char* name, const gl::Timer& timer, std::uint64_t drawCalls, std::uint64_t triangles) {
-  PassReport pass;
-  pass.pass = name;
-  pass.cpuMilliseconds = timer.cpuMilliseconds();
-  pass.gpuMilliseconds = timer.gpuMilliseconds();
-  pass.drawCalls = drawCalls;
-  pass.triangles = triangles;
-  return pass;
-}
-
-std::vector<PassReport> passReports(const PassResults& results) {
-  const Survey& survey = results.survey;
-  std::vector<PassReport> passes{passReport("survey", survey.timer, survey.drawCalls, survey.triangles)};
-  if (results.atlas.timer.stopped()) {
-    std::uint64_t triangles = 0;
-    for (const TileCounts& tile : results.atlas.tiles) triangles += tile.casterTriangles;
-    passes.push_back(passReport("shadow", results.atlas.timer, results.atlas.drawCalls, triangles));
-  }
-  for (const auto& [samples, surfaces] : results.drawn.surfaces) {
-    passes.push_back(passReport("surfaces", surfaces.timer, surfaces.drawCalls, surfaces.triangles));
-  }
-  for (const auto& [samples, layers] : results.drawn.volumes) {
-    passes.push_back(passReport("volumes", layers.timer, 0, 0));
-  }
-  for (const auto& [samples, exact] : results.drawn.exactShadows) {
-    passes.push_back(passReport("visibility", exact.timer, exact.drawCalls, exact.triangles));
-  }
-  for (std::size_t i = 0; i < results.drawn.views.size(); ++i) {
-    const DrawnView& view = results.drawn.views[i];
-    if (!view.timer.stopped()) continue; // read from a target that is there anyway
-    passes.push_back(passReport("view", view.timer, 1, 1));
-    passes.back().view = results.views[i].view;
-  }
-  return passes;
-}
-
-MemoryReport memoryOf(const PassResults& results) {
-  MemoryReport memory;
-  memory.scene = results.gpu.bytes + results.gpu.materialData.bytes();
-  memory.atlas = results.atlas.textures->bytes();
-  memory.targets = results.survey.depth.bytes();
-  for (const auto& [samples, surfaces] : results.drawn.surfaces) memory.targets += surfaces.bytes();
-  for (const auto& [samples, exact] : results.drawn.exactShadows) {
-    memory.targets += exact.layers.texture.bytes() + exact.countBytes;
-  }
-  for (const auto& [samples, layers] : results.drawn.volumes) memory.targets += layers.picture.bytes();
-  memory.targets += results.drawn.casters.bytes() + results.drawn.flatAtlas.bytes();
-  for (const DrawnView& view : results.drawn.views) memory.targets += view.color.bytes();
-  return memory;
-}
-
-TileFacts tileFacts(const TileCounts& counts) {
-  TileFacts facts{counts.casterTriangles, counts.culledTriangles, counts.drawCalls, counts.reused};
-  if (counts.timer.stopped()) facts.time = WorkTime{counts.timer.cpuMilliseconds(), counts.timer.gpuMilliseconds()};
-  return facts;
-}
-
-} // namespace
-
-FrameFacts factsOf(const PassResults& results) {
-  FrameFacts facts;
-  for (const TileCounts& counts : results.atlas.tiles) facts.tiles.push_back(tileFacts(counts));
-  for (const auto& [samples, exact] : results.drawn.exactShadows) {
-    facts.layers.insert(facts.layers.end(), exact.lights.begin(), exact.lights.end());
-  }
-  facts.passes = passReports(results);
-  facts.surveyedTriangles = results.survey.triangles;
-  for (const auto& [samples, surfaces] : results.drawn.surfaces) facts.shadedTriangles += surfaces.triangles;
-  facts.otherDrawCalls = results.drawn.casters.drawCalls;
-  facts.memory = memoryOf(results);
   return facts;
 }
 

@@ -4,7 +4,7 @@
 
 #include "renderer/device/device.h"
 #include "renderer/gl/timer.h"
-#include "renderer/passes/gpu_scene_cache.h"
+#include "renderer/passes/gpu_scene.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/views/draw_views.h"
 
@@ -54,18 +54,5 @@ class GlFrame : public FrameDrawing {
   DrawnViews drawn_;
   std::optional<ShowInput> shown_;
 };
-
-/// What the passes of a frame returned.
-struct PassResults {
-  const Survey& survey;
-  const ShadowAtlas& atlas;
-  const DrawnViews& drawn;
-  const GpuScene& gpu;
-  std::span<const ViewRequest> views; ///< that were shown
-};
-
-/// What they say of the frame, but for its stages. Reads the timers, so that it waits for the device if that is not
-/// done.
-FrameFacts factsOf(const PassResults& results);
 
 } // namespace gnomon

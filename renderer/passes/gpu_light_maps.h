@@ -26,7 +26,7 @@ struct GpuLightMap {
   std::shared_ptr<const GpuMappedScene> scene;
 };
 
-/// Uploaded light maps: each as long as anybody else holds it.
+/// Uploaded light maps: each as long as something else holds it.
 class GpuLightMaps {
  public:
   /// Made now if need be; valid until the next call that the map is not alive for. `scene`, `view`: whose surfaces the

@@ -71,7 +71,7 @@ struct ViewVariant {
 /// Makes a view from the surfaces.
 gl::ProgramSource viewProgram(const ViewVariant& variant);
 
-/// Asks single points for their light; of `variant` what tells of lights and shadows counts.
+/// Asks single points for their light; of `variant` what concerns lights and shadows counts.
 gl::ProgramSource probeProgram(const ViewVariant& variant);
 
 /// Asks every pixel what the map of one light does to an edge there; `variant` as in probeProgram.

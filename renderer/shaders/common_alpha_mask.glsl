@@ -1,6 +1,6 @@
 // What a surface with alpha leaves out: where alpha is too low for the eye and for the light, unless the light dithers.
 // The light reads the texture itself, as rays do. Smaller levels are means: where their texels are as large as the map's,
-// finer holes close or open all alike, and what lies aslant to the light is smeared over many texels. The eye reads them,
+// finer holes close or open together, and what lies aslant to the light is smeared over many texels. The eye reads them,
 // and common_mask_coverage.glsl keeps as much of the surface as the texture has.
 #ifdef ALPHA_MASK
 layout(std430, binding = GNOMON_MATERIAL_BUFFER) readonly buffer MaterialBuffer { MaterialData materials[]; };

@@ -2,8 +2,6 @@
 #include "common_shadow_lookup.glsl"
 #include "common_shadow_filter.glsl"
 #include "common_shadow_disc.glsl"
-#include "common_shadow_pcss.glsl"
-#include "common_shadow_moments.glsl"
 #include "common_shadow_choice.glsl"
 
 // Share of the light that one tile lets through; 1 outside of what the tile covers. The bounds leave the filter room:
@@ -22,8 +20,7 @@ float tileVisibility(LightData light, TileData tile, Receiver receiver, vec3 toL
 #endif
 #ifdef FILTER_DISC
   if (kind == GNOMON_FILTER_DISC) {
-    vec2 radius = light.filterRadius * tile.atlasPerMetre * atlasTexelCount() / at.divisor;
-    at.coordinate.z -= bendRoom(light, tile, at.divisor, slope, 1.0 + max(radius.x, radius.y));
+    at.coordinate.z -= bendRoom(light, tile, at.divisor, slope, 1.0 + texelsAcross(tile, light.filterRadius) / at.divisor);
     return discVisibility(tile, at, slope, discRadius(tile, light.filterRadius, at.divisor), kWholeDisc);
   }
 #endif
@@ -41,8 +38,7 @@ float tileVisibility(LightData light, TileData tile, Receiver receiver, vec3 toL
   return kernelVisibility(at.coordinate.xy * atlasTexelCount(), PlaneDepths(at.coordinate.z, slope), size);
 }
 
-// A face turned away from the light, or along it to within rounding, shadows itself.
-bool isTurnedAway(Receiver receiver, vec3 toLight) { return dot(receiver.normal, toLight) <= 1e-4; }
+bool isTurnedAway(Receiver receiver, vec3 toLight) { return dot(receiver.normal, toLight) <= kTurnedAway; }
 
 #ifdef VISIBILITY_LAYERS
 // What rays or shadow volumes say: a layer a light, a channel a sample of the pixel.

@@ -1,18 +1,11 @@
 // Which of a light's tiles serve a receiver.
-struct TileChoice {
-  int first;   // among the light's tiles
-  int second;  // blended in; = first where there is none
-  float blend; // share of the second
-  float fade;  // share of "lit" at the far end of a manual range
-  bool covered;
-};
+#include "shared/tile_choice.h"
 
 // The first cascade that reaches as far as the view depth; none before the first one begins.
 TileChoice chooseCascade(int light, float viewDepth) {
   int last = int(lights[light].tileCount) - 1;
   int index = 0;
   uint tile = lights[light].firstTile;
-  bool begun = viewDepth >= tiles[tile].near;
   float blendNear = tiles[tile].blendNear;
   float far = tiles[tile].far;
   for (int i = 1; i < TILE_COUNT; ++i) {
@@ -22,10 +15,7 @@ TileChoice chooseCascade(int light, float viewDepth) {
       far = tiles[tile + i].far;
     }
   }
-  float zone = far > blendNear ? smoothstep(blendNear, far, viewDepth) : 0.0;
-  bool fades = lights[light].fadesOut != 0u;
-  if (index < last) return TileChoice(index, zone > 0.0 ? index + 1 : index, zone, 0.0, begun);
-  return TileChoice(index, index, 0.0, fades ? zone : 0.0, begun && (!fades || viewDepth <= far));
+  return cascadeChoice(lights[light], index, blendNear, far, tiles[tile].near, viewDepth);
 }
 
 #ifdef PUNCTUAL

@@ -16,11 +16,11 @@ layout(binding = GNOMON_ATLAS_UNIT) uniform sampler2DMS atlas;
 
 vec2 atlasTexelCount() { return vec2(textureSize(atlas)); }
 
-// Share of a texel's samples that are no nearer to the light than the plane: a sample may lie half a texel off the centre.
+// Share of a texel's samples that are no nearer to the light than the plane.
 float texelVisibility(ivec2 texel, vec2 offset, PlaneDepths plane) {
   vec4 depths = vec4(texelFetch(atlas, texel, 0).r, texelFetch(atlas, texel, 1).r, texelFetch(atlas, texel, 2).r,
                      texelFetch(atlas, texel, 3).r);
-  float held = plane.depth + dot(plane.slope, offset) - 0.5 * (abs(plane.slope.x) + abs(plane.slope.y));
+  float held = plane.depth + dot(plane.slope, offset) - halfTexelRise(plane.slope);
   return dot(step(mapDepths(vec4(held)), depths), vec4(0.25));
 }
 
@@ -97,5 +97,14 @@ float kernelVisibility(vec2 place, PlaneDepths plane, int size) {
     weightX += weightsX[y].x + weightsX[y].y;
   }
   return sum / (weightX * weightX); // the same along both axes
+}
+#endif
+
+#ifdef FILTER_MOMENTS
+#include "shared/moments.h"
+layout(binding = GNOMON_MOMENTS_UNIT) uniform sampler2D momentAtlas;
+
+float momentVisibility(vec2 coordinate, float depth, int kind) {
+  return visibilityFrom(textureLod(momentAtlas, coordinate, 0.0), depth, kind);
 }
 #endif

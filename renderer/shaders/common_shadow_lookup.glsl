@@ -1,5 +1,6 @@
 // Where a receiver lies in a light's tiles.
 #include "common_names.glsl"
+#include "shared/shadow_bias.h"
 #ifdef LIGHT_COUNT
 // Loops over them may be unrolled, and of an array without a length NVIDIA's driver 580 reads zeros at a constant place
 // past the first.
@@ -32,15 +33,8 @@ struct Receiver {
 // that shading shows takes its place, if that faces more of the light.
 Receiver shadedReceiver(LightData light, Receiver receiver, vec3 toLight) {
   if (light.smoothTerminator == 0u) return receiver;
-  float whole = 1e-4; // as isTurnedAway
-#ifdef FILTER_PCSS
-  if (light.filterKind == GNOMON_FILTER_PCSS) {
-    float distance = light.type == GNOMON_DIRECTIONAL ? 1.0 : length(light.position - receiver.relative);
-    whole = max(whole, light.filterRadius / distance);
-  }
-#endif
   float cosine = dot(receiver.normal, toLight);
-  if (cosine > whole) return receiver;
+  if (cosine > wholeLightCosine(light, receiver.relative)) return receiver;
   uvec2 place = texelFetch(surfaceSmooth, ivec2(gl_FragCoord.xy), receiver.sampleIndex).xy;
   float height = uintBitsToFloat(place.y);
   vec3 normal = fromOctahedral(unpackSnorm2x16(place.x));
@@ -67,8 +61,6 @@ struct Lookup {
   float divisor;   // metres from the light along the tile's axis; 1 for parallel light
   bool inside;     // of what the tile covers; outside everything is lit
 };
-
-#include "shared/shadow_bias.h"
 
 Lookup lookupIn(LightData light, TileData tile, Receiver receiver, vec3 toLight) {
   vec4 p = vec4(movedReceiver(light, tile, receiver.relative, receiver.normal, toLight), 1.0);

@@ -59,7 +59,7 @@ vec4 emissionAt(int index) {
 // Largest difference between two octahedral normals that light tells apart no more than an eye does: about 2 degrees.
 const float kNormalStep = 0.03;
 
-// Two samples of a pixel that light treats alike: normals, colors, what they give off and the rest of the material within
+// Two samples of a pixel that light treats as one: normals, colors, what they give off and the rest of the material within
 // steps too small to see, and half a pixel at most between their planes. Compared as they are stored; where the
 // octahedron folds, close normals may pass for different ones, which costs time and nothing else.
 bool alike(Sample a, Sample b) {

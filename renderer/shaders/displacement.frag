@@ -13,13 +13,7 @@
 layout(location = 0) out uvec4 lengths; // shift, texel u and texel v as two halves each; tile of the light
 layout(location = 1) out uvec4 place;   // view depth; octahedral normal; radius of the penumbra, texels
 
-uint halves(vec2 pixels) { return packHalf2x16(clamp(pixels, -6e4, 6e4)); }
-
-// The bias moves a point off its surface; along the light, back onto it.
-vec3 shiftOnSurface(Receiver receiver, TileData tile, vec3 toLight) {
-  vec3 moved = movedReceiver(lights[debugLight], tile, receiver.relative, receiver.normal, toLight) - receiver.relative;
-  return moved - toLight * (dot(receiver.normal, moved) / dot(receiver.normal, toLight));
-}
+uint halves(vec2 pixels) { return packHalf2x16(clamp(pixels, -kMostPixels, kMostPixels)); }
 
 #ifdef FILTER_PCSS
 float penumbraTexels(Receiver receiver, TileData tile, vec3 toLight) {
@@ -55,9 +49,10 @@ void main() {
   DebugTexel texel = debugTexel(receiver);
   if (!texel.found) return;
   TexelEdges edges = texelEdges(texel, receiver);
-  float scale = max(abs(edges.scale), 1e-30);
-  lengths = uvec4(halves(pixelsAlong(receiver, shiftOnSurface(receiver, texel.data, toLight))), halves(edges.u / scale),
-                  halves(edges.v / scale), uint(texel.tile));
+  float scale = edgeScale(edges);
+  vec3 shift = shiftOnSurface(lights[debugLight], texel.data, receiver.relative, receiver.normal, toLight);
+  lengths = uvec4(halves(pixelsAlong(receiver, shift)), halves(edges.u / scale), halves(edges.v / scale),
+                  uint(texel.tile));
 #ifdef FILTER_PCSS
   place.z = floatBitsToUint(penumbraTexels(receiver, texel.data, toLight));
 #endif

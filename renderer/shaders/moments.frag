@@ -21,23 +21,19 @@ layout(location = 0) out vec4 target;
 #define FILTER_KIND GNOMON_FILTER_VSM
 #endif
 
-const int kMostTaps = 33; // wider blurs take every other texel, or fewer
-
 #ifdef ALONG_X
-float linearDepth(float z) {
-  if (blur.z <= 0.0) return z;
-  float distance = blur.y * blur.z / (blur.z - z * (blur.z - blur.y));
-  return clamp((distance - blur.y) / (blur.z - blur.y), 0.0, 1.0);
+vec4 momentsAt(ivec2 texel, int i) {
+  return momentsOf(linearDepth(blur.y, blur.z, texelFetch(depths, texel, i).r), FILTER_KIND);
 }
 
 vec4 source(ivec2 at) {
   ivec2 texel = tile.xy + at;
 #if ATLAS_SAMPLES > 1
   vec4 sum = vec4(0.0);
-  for (int i = 0; i < ATLAS_SAMPLES; ++i) sum += momentsOf(linearDepth(texelFetch(depths, texel, i).r), FILTER_KIND);
+  for (int i = 0; i < ATLAS_SAMPLES; ++i) sum += momentsAt(texel, i);
   return sum / float(ATLAS_SAMPLES);
 #else
-  return momentsOf(linearDepth(texelFetch(depths, texel, 0).r), FILTER_KIND);
+  return momentsAt(texel, 0);
 #endif
 }
 const ivec2 way = ivec2(1, 0);
@@ -52,7 +48,7 @@ void main() {
 #else
   ivec2 here = ivec2(gl_FragCoord.xy) - tile.xy;
 #endif
-  int stride = max(1, int(ceil((2.0 * blur.x + 1.0) / float(kMostTaps))));
+  int stride = max(1, int(ceil((2.0 * blur.x + 1.0) / float(GNOMON_BLUR_TAPS))));
   int reach = int(ceil(blur.x)) / stride + 1;
   vec4 sum = vec4(0.0);
   float weight = 0.0;

@@ -6,7 +6,7 @@
 namespace gnomon {
 
 /// One shader file as it is built into the program: its includes expanded once each, with #line directives whose
-/// source number is told by comments "// source 1: common_shadow.glsl" (0 is the file itself). No #version.
+/// source number is given by comments "// source 1: common_shadow.glsl" (0 is the file itself). No #version.
 struct ShaderSource {
   std::string_view name; ///< "view.frag"
   std::string_view text;

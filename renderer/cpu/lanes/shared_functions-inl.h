@@ -13,11 +13,18 @@ HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
 
 using Real = Float;
+using Whole = Int;
+using Truth = Mask;
 using vec2 = Float2;
 using vec3 = Float3;
 using vec4 = Float4;
+using shared::FrameData;
 using shared::LightData;
 using shared::TileData;
+
+HWY_INLINE Mask both(const Mask& a, const Mask& b) {
+  return a & b;
+}
 
 /// A row of an affine matrix times points.
 HWY_INLINE Float along(const glm::vec4& row, const Float3& place) {
@@ -32,15 +39,18 @@ HWY_INLINE Float along(const glm::vec4& row, const Float3& place) {
 #include "renderer/shaders/shared/surroundings.h"
 // brdf.h calls what surroundings.h defines.
 #include "renderer/shaders/shared/brdf.h"
-#include "renderer/shaders/shared/heat_map.h"
 #include "renderer/shaders/shared/light.h"
 #include "renderer/shaders/shared/moments.h"
 #include "renderer/shaders/shared/normal_map.h"
 #include "renderer/shaders/shared/octahedral.h"
 #include "renderer/shaders/shared/picture.h"
 #include "renderer/shaders/shared/shadow_bias.h"
+// debug_light.h calls what shadow_bias.h defines.
+#include "renderer/shaders/shared/debug_light.h"
+#include "renderer/shaders/shared/shadow_disc.h"
 #include "renderer/shaders/shared/smooth_surface.h"
 #include "renderer/shaders/shared/specular_glossiness.h"
+#include "renderer/shaders/shared/tile_choice.h"
 #undef MANUAL_BIAS
 #undef PUNCTUAL
 #undef GNOMON_OUT

@@ -29,6 +29,7 @@ struct Float3 {
   HWY_INLINE Float3(const Float& x_, const Float& y_, const Float& z_) : x(x_), y(y_), z(z_) {}
   HWY_INLINE explicit Float3(const Float& all) : x(all), y(all), z(all) {}
   HWY_INLINE explicit Float3(const glm::vec3& v) : x(v.x), y(v.y), z(v.z) {}
+  HWY_INLINE explicit Float3(const glm::vec4& v) : x(v.x), y(v.y), z(v.z) {}
 };
 
 struct Float4 {

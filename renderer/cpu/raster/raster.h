@@ -25,7 +25,7 @@ namespace gnomon::cpu {
 struct RasterDraw {
   std::uint32_t slot = 0;
   Facing facing = Facing::both; ///< the triangles that count, by how their corners go round on the picture
-  bool holed = false;           ///< its triangles leave samples out: RasterInput::holes tells which
+  bool holed = false;           ///< its triangles leave samples out: RasterInput::holes says which
 };
 
 /// Pixels and the triangles that cover them, all of one instance. There is room for twice as many as are asked about at

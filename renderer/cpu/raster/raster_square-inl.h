@@ -45,7 +45,7 @@ struct TriangleMarks {
   bool turned;
 };
 
-/// Adds a triangle to a block. `covered` and `depthOf` tell of the sixteen samples of each number. Holes are those of
+/// Adds a triangle to a block. `covered` and `depthOf` are of the sixteen samples of each number. Holes are those of
 /// pixels, and so are asked for once for all samples.
 template <DepthRange range, int samples, class Covered, class Depth>
 HWY_INLINE void addToBlock(const Square& square, const TriangleMarks& triangle, int column, int row,

@@ -10,7 +10,7 @@
 
 namespace gnomon::cpu {
 
-/// Corners of small triangles lie less than this apart, in 1/256 of a pixel: what tells their samples fits 24 bits.
+/// Corners of small triangles lie less than this apart, in 1/256 of a pixel: what finds their samples fits 24 bits.
 inline constexpr std::int32_t kSmallSide = 1 << 14;
 
 /// What a small triangle is rastered by, a float each or the bits of an integer. Its corners go round

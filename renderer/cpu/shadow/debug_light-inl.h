@@ -6,8 +6,13 @@
 #define GNOMON_CPU_DEBUG_LIGHT_INL_H
 #endif
 
+#include <bit>
+
+#include "protocol/spec/output_options.h"
+#include "renderer/cpu/lanes/gather-inl.h"
 #include "renderer/cpu/lanes/shared_functions-inl.h"
 #include "renderer/cpu/shadow/shadow_visibility-inl.h"
+#include "renderer/prepare/draw_list.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
@@ -15,7 +20,7 @@ namespace gnomon::cpu::HWY_NAMESPACE {
 /// What the views of one light are made from.
 struct DebugLight {
   const ShadowMaps& maps;
-  const shared::FrameData& frame;
+  const FrameData& frame;
   int light = -1;                               ///< -1 = there is none
   std::span<const TileMap> casters = {};        ///< parallel to maps.tiles, numbered, a sample a texel; view casterIds
   std::span<const std::int32_t> slotNodes = {}; ///< the node of each slot of triangle numbers; view casterIds
@@ -67,70 +72,31 @@ HWY_INLINE DebugTexel debugTexel(const ServedReceiver& served, int index) {
 }
 
 /// Pixels that points cross on the picture for each metre that they move along `way`.
-HWY_INLINE Float2 pixelsAlong(const shared::FrameData& frame, const Receiver& receiver, const Float3& way) {
-  glm::vec3 right(frame.right);
-  glm::vec3 up(frame.up);
-  right /= glm::dot(right, right);
-  up /= glm::dot(up, up);
-  Float2 moved(along(right, way), along(up, way));
-  if (frame.perspective != 0u) {
-    const Float2 place = Float2(along(right, receiver.relative), along(up, receiver.relative)) / receiver.viewDepth;
-    moved = (moved - place * along(frame.forward, way)) / receiver.viewDepth;
-  }
-  return {moved.x / frame.pixelStep.x, moved.y / frame.pixelStep.y};
+HWY_INLINE Float2 pixelsAlong(const FrameData& frame, const Receiver& receiver, const Float3& way) {
+  const glm::vec3 right = frame.right / glm::dot(frame.right, frame.right);
+  const glm::vec3 up = frame.up / glm::dot(frame.up, frame.up);
+  return pixelsAlong(frame, Float3(right), Float3(up), receiver.relative, receiver.viewDepth, way);
 }
 
-/// Texels' two edges as they lie on the surface's plane, seen on the picture: pixels, times `scale`.
-struct TexelEdges {
-  Float2 u;
-  Float2 v;
-  Float scale; ///< 0 where the light grazes the surface
-};
-
-/// How a row of the tile's matrix, divided by the last one, changes where it is `coordinate`: times the divisor.
-HWY_INLINE Float3 gradient(const TileData& tile, int row, const Float& coordinate) {
-  const glm::vec4 own = tile.atlasFromRelative[row];
-  const glm::vec4 last = tile.atlasFromRelative[3];
-  return {own.x - last.x * coordinate, own.y - last.y * coordinate, own.z - last.z * coordinate};
-}
-
-/// An edge e of the texel lies in the plane and crosses one texel of its own axis and none of the other. With the
-/// gradients U and V of the two and the normal n: n e = 0, V e = 0, U e = 1, so that e = (V x n) / (n (U x V)).
 HWY_INLINE TexelEdges texelEdges(const ServedReceiver& served, const DebugTexel& texel) {
-  const shared::FrameData& frame = served.debug.frame;
+  const FrameData& frame = served.debug.frame;
   const Receiver& receiver = served.receiver;
-  const glm::vec2 texels = served.debug.maps.atlasTexels;
-  const Float3 u = gradient(texel.data, 0, texel.coordinate.x) * (texels.x / texel.divisor);
-  const Float3 v = gradient(texel.data, 1, texel.coordinate.y) * (texels.y / texel.divisor);
-  return {pixelsAlong(frame, receiver, cross(v, receiver.normal)),
-          pixelsAlong(frame, receiver, cross(receiver.normal, u)), dot(receiver.normal, cross(u, v))};
+  const TexelSides sides =
+      texelSides(texel.data, texel.coordinate, texel.divisor, receiver.normal, Float2(served.debug.maps.atlasTexels));
+  return {pixelsAlong(frame, receiver, sides.u), pixelsAlong(frame, receiver, sides.v), sides.scale};
 }
 
-/// Share of light squares in pixels whose sides span `width` texels. A square wave's integral is a triangle wave, whose
-/// difference over the pixel is the square wave's mean there.
-HWY_INLINE Float checkerboard(const Float& place, const Float& width) {
-  const Float before = 1.0f - abs(2.0f * fract((place - 0.5f * width) * 0.5f) - 1.0f);
-  const Float after = 1.0f - abs(2.0f * fract((place + 0.5f * width) * 0.5f) - 1.0f);
-  return (after - before) / width;
-}
-
-/// View texelGrid. As bright as the scene, `shown`, but never so dark that the squares can't be told apart.
+/// View texelGrid.
 inline Float3 texelGrid(const DebugLight& debug, const Float3& shown, const Receiver& receiver) {
-  const Float grey = 0.15f + 0.85f * clamp(luminance(shown), 0.0f, 1.0f);
+  const Float grey = gridGrey(luminance(shown));
   Float3 color(grey);
   if (!hasTiles(debug)) return color;
   const ServedReceiver served = servedReceiver(debug, receiver);
   for (int i = 0; i < static_cast<int>(served.light.tileCount); ++i) {
     const DebugTexel texel = debugTexel(served, i);
     if (none(texel.found)) continue;
-    const TexelEdges edges = texelEdges(served, texel);
-    const Float area = max(abs(edges.u.x * edges.v.y - edges.u.y * edges.v.x), 1e-30f);
-    const Float texels = abs(edges.scale) / area;
-    const Float meanX =
-        checkerboard(texel.coordinate.x * debug.maps.atlasTexels.x, max(length(edges.v) * texels, 0.02f));
-    const Float meanY =
-        checkerboard(texel.coordinate.y * debug.maps.atlasTexels.y, max(length(edges.u) * texels, 0.02f));
-    const Float light = mix(0.3f, 1.0f, 0.5f + 0.5f * meanX * meanY);
+    const Float light = gridLight(texelEdges(served, texel), texel.coordinate.x * debug.maps.atlasTexels.x,
+                                  texel.coordinate.y * debug.maps.atlasTexels.y);
     color = select(texel.found, Float3(kTints[i]) * (grey * light), color);
   }
   return color;
@@ -172,22 +138,12 @@ HWY_INLINE TexelValue texelValue(const DebugLight& debug, const Receiver& receiv
   return value;
 }
 
-/// View texelDensity: the largest extent in pixels of the texel under the point: the greater singular value of its two
-/// edges. (Lloyd et al., "Logarithmic Perspective Shadow Maps", 2008: the aliasing error m.) At most what 16 bits of an
-/// EXR can hold.
-HWY_INLINE Float texelDensity(const TexelEdges& edges) {
-  const Float uu = dot(edges.u, edges.u);
-  const Float vv = dot(edges.v, edges.v);
-  const Float uv = dot(edges.u, edges.v);
-  const Float greatest = sqrt(0.5f * (uu + vv + sqrt((uu - vv) * (uu - vv) + 4.0f * uv * uv)));
-  return min(greatest / max(abs(edges.scale), 1e-30f), 65504.0f);
-}
-
+/// View texelDensity.
 inline DebugValue densityValue(const DebugLight& debug, const Receiver& receiver, bool encoded) {
   const auto density = [](const ServedReceiver& served, const DebugTexel& texel)
                            HWY_ATTR { return texelDensity(texelEdges(served, texel)); };
   const TexelValue value = texelValue(debug, receiver, density);
-  return encoded ? heatValue(value.found, 0.5f + log2(max(value.number, 1e-30f)) / 8.0f) : number(value.number);
+  return encoded ? heatValue(value.found, heatOfDensity(value.number)) : number(value.number);
 }
 
 /// View blendWeight: the share of the next cascade.
@@ -208,9 +164,9 @@ HWY_INLINE Float biasMetres(const ServedReceiver& served, const DebugTexel& texe
   Lookup at = lookupIn(served.light, texel.data, served.receiver, served.toLight);
   const Float2 slope = comparedSlope(served.light, texel.data, served.receiver.relative, served.receiver.normal);
   at.coordinate.z -= bendRoom(served.light, texel.data, at.divisor, slope, 1.0f);
-  const Float3 a = gradient(texel.data, 0, at.coordinate.x);
-  const Float3 b = gradient(texel.data, 1, at.coordinate.y);
-  const Float3 c = gradient(texel.data, 2, at.coordinate.z);
+  const Float3 a = rowGradient(texel.data, 0, at.coordinate.x);
+  const Float3 b = rowGradient(texel.data, 1, at.coordinate.y);
+  const Float3 c = rowGradient(texel.data, 2, at.coordinate.z);
   const Float3 off = (at.coordinate - texel.coordinate) * texel.divisor;
   const Float3 bc = cross(b, c);
   const Float3 moved = (bc * off.x + cross(c, a) * off.y + cross(a, b) * off.z) / dot(a, bc);
@@ -221,9 +177,59 @@ inline DebugValue biasValue(const DebugLight& debug, const Receiver& receiver, b
   const auto metres = [](const ServedReceiver& served, const DebugTexel& texel)
                           HWY_ATTR { return biasMetres(served, texel); };
   const TexelValue value = texelValue(debug, receiver, metres);
-  constexpr float decades = 0.30103f; // of an octave
-  return encoded ? heatValue(value.found, 1.0f + 0.25f * decades * log2(max(value.number, 1e-9f)))
-                 : number(value.number);
+  return encoded ? heatValue(value.found, heatOfMetres(value.number)) : number(value.number);
+}
+
+/// The node of the triangle that is nearest to the light in texels of the tile; -1 = none.
+HWY_INLINE Int nodeAt(const DebugLight& debug, const TileMap& casters, const Int& index) {
+  static_assert((kClusterTriangles & (kClusterTriangles - 1)) == 0);
+  constexpr int bits = std::countr_zero(kClusterTriangles);
+  const Int number = gather(casters.depths->triangles.data(), index);
+  const Mask none = number == Int(static_cast<std::int32_t>(kNoNumber));
+  const Int slot = select(none, Int(0), shiftRightUnsigned<bits>(number));
+  return select(none, Int(-1), gather(debug.slotNodes.data(), slot));
+}
+
+/// In the texels that the receivers are looked up in; -1 where none stands before them.
+inline Int casterNodes(const DebugLight& debug, const Receiver& shown) {
+  Int nodes = -1;
+  if (!hasTiles(debug)) return nodes;
+  const LightData& light = debug.maps.lights[debug.light];
+  const Receiver receiver = shadedReceiver(light, shown, towardsLight(light, shown.relative)).receiver;
+  const ServedReceiver served = servedReceiver(debug, receiver);
+  for (int i = 0; i < static_cast<int>(served.light.tileCount); ++i) {
+    const DebugTexel texel = debugTexel(served, i);
+    if (none(texel.found)) continue;
+    const TileMap& casters = debug.casters[texel.tile];
+    Lookup at = lookupIn(served.light, texel.data, receiver, served.toLight);
+    const Float2 slope = comparedSlope(served.light, texel.data, receiver.relative, receiver.normal);
+    const Float2 place = Float2(at.coordinate.x, at.coordinate.y) * Float2(debug.maps.atlasTexels) -
+                         Float2(static_cast<float>(casters.rect.x), static_cast<float>(casters.rect.y));
+    const Int x = truncated(place.x);
+    const Int y = truncated(place.y);
+    at.coordinate.z -= bendRoom(served.light, texel.data, at.divisor, slope, 1.0f);
+    const Float plane = at.coordinate.z + dot(slope, Float2(toFloat(x) + 0.5f, toFloat(y) + 0.5f) - place);
+    const Int index = columnIndex(casters, x) + rowIndex(casters, y);
+    const Mask shadowed = texel.found & at.inside & andNot(isLit(plane, depthAt(casters, index)), maskOf(0xffffu));
+    nodes = select(shadowed, nodeAt(debug, casters, index), nodes);
+  }
+  return nodes;
+}
+
+inline DebugValue casterValue(const DebugLight& debug, const Receiver& receiver, bool encoded) {
+  const Int nodes = casterNodes(debug, receiver);
+  if (!encoded) return number(toFloat(nodes));
+  const Float3 toEye = debug.frame.perspective != 0u ? -normalize(receiver.relative) : Float3(-debug.frame.forward);
+  const Float3 lit(greyWithoutCaster(dot(receiver.normal, toEye)));
+  return {select(nodes < Int(0), lit, nodeColor(toFloat(nodes + Int(1)))), 1.0f};
+}
+
+/// What a view of one light's numbers shows of receivers: texelDensity, blendWeight, bias or casterIds.
+inline DebugValue debugData(const DebugLight& debug, View view, bool encoded, const Receiver& receiver) {
+  if (view == View::texelDensity) return densityValue(debug, receiver, encoded);
+  if (view == View::blendWeight) return blendValue(debug, receiver);
+  if (view == View::bias) return biasValue(debug, receiver, encoded);
+  return casterValue(debug, receiver, encoded);
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

@@ -5,37 +5,30 @@
 namespace gnomon::cpu {
 namespace {
 
-glm::vec2 turned(double radius, int index) {
-  return {radius * std::cos(index * GNOMON_GOLDEN_ANGLE), radius * std::sin(index * GNOMON_GOLDEN_ANGLE)};
-}
-
-std::array<glm::vec2, GNOMON_DISC_TAPS> spiral() {
-  std::array<glm::vec2, GNOMON_DISC_TAPS> steps;
-  for (int i = 0; i < GNOMON_DISC_TAPS; ++i)
-    steps[static_cast<std::size_t>(i)] = turned(std::sqrt((i + 0.5) / GNOMON_DISC_TAPS), i);
-  return steps;
-}
-
-glm::vec2 searched(int index) {
-  const double share = index / (GNOMON_SEARCH_TAPS - 1.0);
-  return turned(share * share, index);
-}
-
-std::array<glm::vec2, GNOMON_SEARCH_TAPS> searchSpiral() {
-  std::array<glm::vec2, GNOMON_SEARCH_TAPS> steps;
-  for (int i = 0; i < GNOMON_SEARCH_TAPS; ++i) steps[static_cast<std::size_t>(i)] = searched(i);
+/// `radiusOf(i)`: of the place of that number.
+template <std::size_t count, class RadiusOf>
+std::array<glm::vec2, count> spiral(const RadiusOf& radiusOf) {
+  std::array<glm::vec2, count> steps;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double place = static_cast<double>(i), radius = radiusOf(place);
+    steps[i] = {radius * std::cos(place * GNOMON_GOLDEN_ANGLE), radius * std::sin(place * GNOMON_GOLDEN_ANGLE)};
+  }
   return steps;
 }
 
 } // namespace
 
 const std::array<glm::vec2, GNOMON_DISC_TAPS>& discSteps() {
-  static const std::array<glm::vec2, GNOMON_DISC_TAPS> steps = spiral();
+  static const auto steps =
+      spiral<GNOMON_DISC_TAPS>([](double place) { return std::sqrt((place + 0.5) / GNOMON_DISC_TAPS); });
   return steps;
 }
 
 const std::array<glm::vec2, GNOMON_SEARCH_TAPS>& searchSteps() {
-  static const std::array<glm::vec2, GNOMON_SEARCH_TAPS> steps = searchSpiral();
+  static const auto steps = spiral<GNOMON_SEARCH_TAPS>([](double place) {
+    const double share = place / (GNOMON_SEARCH_TAPS - 1.0);
+    return share * share;
+  });
   return steps;
 }
 

@@ -105,13 +105,14 @@ HWY_INLINE ReadBox texelsBetween(const ShadowMaps& maps, const LightData& light,
 /// Marks what the covered parts read of a light. Gives those of which nothing more need be marked, a bit each.
 HWY_INLINE unsigned markCorners(const ShadowMaps& maps, const LightData& light, const Receiver& corners,
                                 unsigned covered, std::span<TexelMarks> marks) {
-  constexpr float kTurnedAway = 5e-5f; // where a corner is, isTurnedAway says so of all
   constexpr std::int32_t kWidest = 48; // a box around more than that holds much that no pixel reads
   const Float3 toLight(glm::vec3(light.direction));
   const Float cosine = dot(corners.normal, toLight);
-  const unsigned lit = bitsOf(receivesShadow(light, corners) & (cosine > kTurnedAway));
+  // Corners are rounded otherwise than the pixels between them: a part is dark only well beyond kTurnedAway.
+  const unsigned lit = bitsOf(receivesShadow(light, corners) & (cosine > 0.5f * kTurnedAway));
   // Of what may stand on the surface that shading shows, each pixel has a place of its own.
-  const Mask faces = corners.smooth.bends & (cosine < 2e-4f) & (dot(corners.smooth.normal, toLight) > 0.0f);
+  const Mask faces =
+      corners.smooth.bends & (cosine < 2.0f * kTurnedAway) & (dot(corners.smooth.normal, toLight) > 0.0f);
   const unsigned standsOff = light.smoothTerminator != 0u ? bitsOf(faces) : 0u;
   const TileSpans spans = tileSpans(maps, light, corners.viewDepth);
   unsigned marked = 0;
@@ -143,7 +144,7 @@ HWY_INLINE unsigned markCorners(const ShadowMaps& maps, const LightData& light, 
   return marked;
 }
 
-/// Marks what the lights, each of which reads alike, read for the covered parts of a square. Gives those of which the
+/// Marks what the lights, of which readsAlike holds, read for the covered parts of a square. Gives those of which the
 /// corners mark all that any of them reads.
 HWY_INLINE unsigned markCorners(const ReadQuery& query, std::span<const std::uint32_t> lights, const EvenParts& parts,
                                 std::span<TexelMarks> marks) {

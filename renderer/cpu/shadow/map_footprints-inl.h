@@ -12,17 +12,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
 
-/// The bias moves points off their surface; along the light, back onto it.
-HWY_INLINE Float3 shiftOnSurface(const ServedReceiver& served, const TileData& tile) {
-  const Receiver& receiver = served.receiver;
-  const Float3 moved =
-      movedReceiver(served.light, tile, receiver.relative, receiver.normal, served.toLight) - receiver.relative;
-  return moved - served.toLight * (dot(receiver.normal, moved) / dot(receiver.normal, served.toLight));
-}
-
 /// Pixels, y DOWN.
 HWY_INLINE Float2 pictured(const Float2& pixels) {
-  return {clamp(pixels.x, -6e4f, 6e4f), -clamp(pixels.y, -6e4f, 6e4f)};
+  return {clamp(pixels.x, -kMostPixels, kMostPixels), -clamp(pixels.y, -kMostPixels, kMostPixels)};
 }
 
 struct Footprints {
@@ -62,8 +54,9 @@ inline Footprints footprintsOf(const DebugLight& debug, const Receiver& shown) {
     const Mask found = texel.found & receives;
     if (none(found)) continue;
     const TexelEdges edges = texelEdges(served, texel);
-    const Float scale = max(abs(edges.scale), 1e-30f);
-    const Float2 shift = pixelsAlong(debug.frame, receiver, shiftOnSurface(served, texel.data));
+    const Float scale = edgeScale(edges);
+    const Float2 shift = pixelsAlong(
+        debug.frame, receiver, shiftOnSurface(light, texel.data, receiver.relative, receiver.normal, served.toLight));
     footprints.shift = select(found, pictured(shift), footprints.shift);
     footprints.texelU = select(found, pictured(edges.u / scale), footprints.texelU);
     footprints.texelV = select(found, pictured(edges.v / scale), footprints.texelV);

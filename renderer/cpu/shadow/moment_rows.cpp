@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/shaders/shared/frame_types.h"
+
 namespace gnomon::cpu {
 namespace {
 
-constexpr float kMostTaps = 33; ///< wider blurs take every other texel, or fewer
 constexpr std::size_t kPacket = 16;
 
 std::size_t wholePackets(std::size_t count) {
@@ -16,7 +17,7 @@ std::size_t wholePackets(std::size_t count) {
 } // namespace
 
 BoxTaps boxTaps(float texels) {
-  const int stride = std::max(1, static_cast<int>(std::ceil((2.0f * texels + 1.0f) / kMostTaps)));
+  const int stride = std::max(1, static_cast<int>(std::ceil((2.0f * texels + 1.0f) / GNOMON_BLUR_TAPS)));
   const int reach = static_cast<int>(std::ceil(texels)) / stride + 1;
   BoxTaps taps;
   taps.stride = static_cast<std::size_t>(stride);

@@ -16,13 +16,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
 
-HWY_INLINE Float linearDepth(const MomentBlur& blur, const Float& z) {
-  if (blur.farthest <= 0.0f) return z;
-  const float span = blur.farthest - blur.nearest;
-  const Float distance = blur.nearest * blur.farthest / (blur.farthest - z * span);
-  return clamp((distance - blur.nearest) / span, 0.0f, 1.0f);
-}
-
 /// A row of one sample's depths, from the blocks that they lie in; beyond the tile its outermost ones.
 inline void copyRow(const DepthBuffer& depths, int firstX, int y, int sample, std::vector<float>& row) {
   const float* from = depths.depths.data() + depths.blockAt(0, y / kBlockSide, sample) + y % kBlockSide * kBlockSide;
@@ -39,7 +32,7 @@ inline void sourceRow(const DepthBuffer& depths, const MomentBlur& blur, int fir
   for (int sample = 0; sample < depths.samples; ++sample) {
     copyRow(depths, firstX, y, sample, window.depths);
     for (std::size_t x = 0; x < window.sourceWidth; x += kLanes) {
-      const Float4 of = momentsOf(linearDepth(blur, load(window.depths.data() + x)), blur.kind);
+      const Float4 of = momentsOf(linearDepth(blur.nearest, blur.farthest, load(window.depths.data() + x)), blur.kind);
       const Float* const parts[] = {&of.x, &of.y, &of.z, &of.w};
       for (std::size_t m = 0; m < window.row.size(); ++m) {
         float* at = window.row[m].data() + x;

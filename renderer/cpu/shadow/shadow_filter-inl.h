@@ -9,6 +9,7 @@
 
 #include <algorithm>
 
+#include "renderer/cpu/lanes/shared_functions-inl.h"
 #include "renderer/cpu/shadow/shadow_texels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -124,11 +125,11 @@ inline Float kernelVisibility(const TileMap& map, const Float2& place, const Pla
 }
 
 /// The same of a map of several samples a texel: the share of a square's samples that are no nearer to the light than
-/// the plane. A sample may lie half a texel off the centre, and a texel beside the place weighs as one under it.
+/// the plane. A texel beside the place weighs as one under it.
 inline Float samplesVisibility(const TileMap& map, const Float2& place, const PlaneDepths& plane, int size) {
   const Int middleX = truncated(place.x);
   const Int middleY = truncated(place.y);
-  const Float nearest = plane.depth - 0.5f * (abs(plane.slope.x) + abs(plane.slope.y));
+  const Float nearest = plane.depth - halfTexelRise(plane.slope);
   const int reach = size / 2;
   const int samples = map.depths->samples;
   Float sum = 0.0f;

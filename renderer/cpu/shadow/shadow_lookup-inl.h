@@ -1,4 +1,5 @@
-// Where a receiver lies in a light's tiles: shaders/common_shadow_lookup.glsl, sixteen at a time.
+// Where a receiver lies in a light's tiles, and which of them serve it: shaders/common_shadow_lookup.glsl and
+// common_shadow_choice.glsl, sixteen at a time.
 #if defined(GNOMON_CPU_SHADOW_LOOKUP_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef GNOMON_CPU_SHADOW_LOOKUP_INL_H
 #undef GNOMON_CPU_SHADOW_LOOKUP_INL_H
@@ -70,6 +71,43 @@ HWY_INLINE Lookup lookupIn(const LightData& light, const TileData& tile, const R
 HWY_INLINE Float2 placeIn(const ShadowMaps& maps, const TileMap& map, const Lookup& at) {
   const Float2 corner(static_cast<float>(map.rect.x), static_cast<float>(map.rect.y));
   return Float2(at.coordinate.x, at.coordinate.y) * Float2(maps.atlasTexels) - corner;
+}
+
+/// The first cascade that reaches as far as the view depth; none before the first one begins.
+HWY_INLINE TileChoice chooseCascade(const ShadowMaps& maps, const shared::LightData& light, const Float& viewDepth) {
+  const auto* tiles = maps.tiles.data() + light.firstTile;
+  const int last = static_cast<int>(light.tileCount) - 1;
+  Int index = 0;
+  Float blendNear = tiles[0].blendNear;
+  Float far = tiles[0].far;
+  for (int i = 1; i <= last; ++i) {
+    const Mask beyond = viewDepth > far;
+    if (none(beyond)) break;
+    index = select(beyond, Int(i), index);
+    blendNear = select(beyond, tiles[i].blendNear, blendNear);
+    far = select(beyond, tiles[i].far, far);
+  }
+  return cascadeChoice(light, index, blendNear, far, tiles[0].near, viewDepth);
+}
+
+/// The face that looks most nearly along the light's way to the point.
+HWY_INLINE TileChoice chooseFace(const ShadowMaps& maps, const shared::LightData& light, const Float3& toLight) {
+  Int best = 0;
+  Float most = -2.0f;
+  for (int i = 0; i < static_cast<int>(light.tileCount); ++i) {
+    const Float way = -dot(Float3(maps.tiles[light.firstTile + i].axis), toLight);
+    const Mask nearer = way > most;
+    most = select(nearer, way, most);
+    best = select(nearer, Int(i), best);
+  }
+  return {best, best, 0.0f, 0.0f, firstLanes(kLanes)};
+}
+
+/// Of a light that has tiles.
+HWY_INLINE TileChoice chooseTile(const ShadowMaps& maps, const shared::LightData& light, const Receiver& receiver,
+                                 const Float3& toLight) {
+  if (light.type != GNOMON_DIRECTIONAL) return chooseFace(maps, light, toLight);
+  return chooseCascade(maps, light, receiver.viewDepth);
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

@@ -12,9 +12,7 @@
 #include "renderer/cpu/shadow/shadow_disc-inl.h"
 #include "renderer/cpu/shadow/shadow_filter-inl.h"
 #include "renderer/cpu/shadow/shadow_lookup-inl.h"
-#include "renderer/cpu/shadow/shadow_moments-inl.h"
-#include "renderer/cpu/shadow/shadow_pcss-inl.h"
-#include "renderer/cpu/shadow/tile_choice-inl.h"
+#include "renderer/cpu/shadow/shadow_texels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
@@ -36,9 +34,8 @@ inline Float tileVisibility(const ShadowMaps& maps, const LightData& light, int 
   }
   const Float2 slope = comparedSlope(light, tile, receiver.relative, receiver.normal);
   if (light.filterKind == GNOMON_FILTER_DISC) {
-    const glm::vec2 texels = light.filterRadius * tile.atlasPerMetre * maps.atlasTexels;
-    const Float radius = std::max(texels.x, texels.y) / at.divisor;
-    at.coordinate.z -= bendRoom(light, tile, at.divisor, slope, 1.0f + radius);
+    at.coordinate.z -=
+        bendRoom(light, tile, at.divisor, slope, 1.0f + texelsAcross(maps, tile, light.filterRadius) / at.divisor);
     const Float across = discRadius(tile, light.filterRadius, at.divisor);
     return select(at.inside, discVisibility(maps, tileIndex, at, slope, across, kWholeDisc, receiver.place, read),
                   1.0f);
@@ -56,8 +53,9 @@ inline Float tileVisibility(const ShadowMaps& maps, const LightData& light, int 
 HWY_INLINE Float2 filterReach(const ShadowMaps& maps, const LightData& light, const TileData& tile, const Lookup& at) {
   constexpr float kRounding = 1.0f / 64; // of places, texels
   if (light.filterKind == GNOMON_FILTER_DISC || light.filterKind == GNOMON_FILTER_PCSS) {
-    const Float radius = light.filterKind == GNOMON_FILTER_DISC ? discRadius(tile, light.filterRadius, at.divisor)
-                                                                : searchReach(maps, light, tile, at.coordinate.z);
+    const Float radius = light.filterKind == GNOMON_FILTER_DISC
+                             ? discRadius(tile, light.filterRadius, at.divisor)
+                             : searchReach(tile, penumbraPerDepth(maps, light, tile), at.coordinate.z);
     const glm::vec2 texels = tile.atlasPerMetre * maps.atlasTexels;
     return {radius * texels.x + (0.5f + kRounding), radius * texels.y + (0.5f + kRounding)};
   }
@@ -65,14 +63,13 @@ HWY_INLINE Float2 filterReach(const ShadowMaps& maps, const LightData& light, co
   return Float2(Float(0.5f * size + kRounding));
 }
 
-/// Whether what a light's pixels read is told by corners: what they read is as far around each, whatever its depth.
+/// Whether corners give what a light's pixels read: what they read is as far around each, whatever its depth.
 HWY_INLINE bool readsAlike(const LightData& light) {
   return light.type == GNOMON_DIRECTIONAL && light.filterKind != GNOMON_FILTER_PCSS;
 }
 
-/// A face turned away from the light, or along it to within rounding, shadows itself.
 HWY_INLINE Mask isTurnedAway(const Receiver& receiver, const Float3& toLight) {
-  return dot(receiver.normal, toLight) <= 1e-4f;
+  return dot(receiver.normal, toLight) <= kTurnedAway;
 }
 
 /// Receivers as their shadows are looked up in a light's map, and where it is from there.
@@ -86,12 +83,7 @@ struct ShadedReceiver {
 HWY_INLINE ShadedReceiver shadedReceiver(const LightData& light, const Receiver& receiver, const Float3& toLight) {
   ShadedReceiver shaded{receiver, toLight};
   if (light.smoothTerminator == 0u || none(receiver.smooth.bends)) return shaded;
-  Float whole = 1e-4f; // as isTurnedAway
-  if (light.filterKind == GNOMON_FILTER_PCSS) {
-    Float radius = light.filterRadius;
-    if (light.type != GNOMON_DIRECTIONAL) radius = radius / length(Float3(light.position) - receiver.relative);
-    whole = max(whole, radius);
-  }
+  const Float whole = wholeLightCosine(light, receiver.relative);
   const Float cosine = dot(receiver.normal, toLight);
   const SmoothPlace& smooth = receiver.smooth;
   const Mask stands = smooth.bends & (cosine <= whole) & (smoothGain(cosine, dot(smooth.normal, toLight)) > 0.0f);

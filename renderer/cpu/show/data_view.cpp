@@ -4,10 +4,10 @@
 #include <hwy/foreach_target.h>
 #include <limits>
 
-#include "renderer/cpu/shadow/caster_ids-inl.h"
+#include "renderer/cpu/shadow/debug_light-inl.h"
 #include "renderer/cpu/shadow/shadow_visibility-inl.h"
 #include "renderer/cpu/show/packet-inl.h"
-#include "renderer/cpu/show/view_squares.h"
+#include "renderer/cpu/show/show_view.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {

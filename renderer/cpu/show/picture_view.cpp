@@ -8,7 +8,7 @@
 #include "renderer/cpu/shadow/debug_light-inl.h"
 #include "renderer/cpu/shadow/shadow_visibility-inl.h"
 #include "renderer/cpu/show/packet-inl.h"
-#include "renderer/cpu/show/view_squares.h"
+#include "renderer/cpu/show/show_view.h"
 #include "renderer/cpu/surface/shading-inl.h"
 
 HWY_BEFORE_NAMESPACE();

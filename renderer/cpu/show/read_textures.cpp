@@ -8,7 +8,7 @@
 
 #include "renderer/cpu/show/finest_levels.h"
 #include "renderer/cpu/show/packet-inl.h"
-#include "renderer/cpu/show/view_squares.h"
+#include "renderer/cpu/show/show_view.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {

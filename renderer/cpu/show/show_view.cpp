@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include "renderer/cpu/show/srgb_bytes.h"
-#include "renderer/cpu/show/view_squares.h"
 #include "renderer/device/view_image.h"
 
 namespace gnomon::cpu {

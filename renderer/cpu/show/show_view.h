@@ -5,6 +5,7 @@
 #include <span>
 
 #include "protocol/spec/traits.h"
+#include "renderer/core/parallel.h"
 #include "renderer/cpu/frame_scene.h"
 #include "renderer/cpu/raster/depth_buffer.h"
 #include "renderer/cpu/shadow/shadow_maps.h"
@@ -68,5 +69,27 @@ constexpr int pixelAt(int column, int row) {
 /// block, of each first what its pixels' first samples show, then what others show. Where dozens of instances show,
 /// they stay mixed. `without`: the blocks that are left out, a bit each.
 void listFragments(const DepthBuffer& buffer, int x, int y, FragmentList& list, unsigned without = 0);
+
+/// The colors of a view of source `picture`: the mean of each pixel's samples.
+void pictureSquare(const ShowJob& job, const FragmentList& list, int x, int y, TileColors& colors);
+
+/// The numbers of a view of source `data`.
+void dataSquare(const ShowJob& job, const FragmentList& list, int x, int y, TileColors& colors);
+
+/// Calls `each(list, x, y)` with the fragments of every square of the picture, on all cores.
+template <class Each>
+void forEachSquare(const DepthBuffer& buffer, const Each& each) {
+  const auto across = static_cast<std::size_t>((buffer.width + kTileSide - 1) / kTileSide);
+  const auto up = static_cast<std::size_t>((buffer.height + kTileSide - 1) / kTileSide);
+  forEachPiece(across * up, 8, [&](std::size_t first, std::size_t last) {
+    FragmentList list;
+    for (std::size_t i = first; i < last; ++i) {
+      const int x = static_cast<int>(i % across) * kTileSide;
+      const int y = static_cast<int>(i / across) * kTileSide;
+      listFragments(buffer, x, y, list);
+      each(list, x, y);
+    }
+  });
+}
 
 } // namespace gnomon::cpu

@@ -21,7 +21,7 @@ HWY_INLINE Sight sightThrough(const glm::vec2& size, const Float2& place) {
   return sight;
 }
 
-/// What tells of a hole.
+/// What a hole is found by.
 struct ReadAlpha {
   Float factor;         ///< of the material and its vertices
   Float texel{1.0f};    ///< of the texture

@@ -10,7 +10,7 @@
 
 #include "renderer/cpu/lanes/gather-inl.h"
 #include "renderer/cpu/lanes/vectors-inl.h"
-#include "renderer/cpu/surface/texture.h"
+#include "renderer/cpu/surface/textures.h"
 #include "renderer/scene/scene.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -76,7 +76,7 @@ struct LevelTaps {
   Float weight[4];
 };
 
-/// What is read of a texture. Of one of the same size that is read alike it is the same.
+/// What is read of a texture. It is the same for one of the same size that is read in the same way.
 struct Taps {
   static constexpr std::size_t kMost = 34; ///< each size once, and the largest by another filter
   std::size_t count = 0;

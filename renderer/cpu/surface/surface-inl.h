@@ -124,7 +124,7 @@ class InstanceSurface {
     const TextureSpot& spot = spots_.of[use.texCoord == 0 ? 0 : 1];
     return use.transform ? moved(data_, unit, spot) : spot;
   }
-  /// Materials mostly read all their textures alike.
+  /// Materials mostly read all their textures in the same way.
   HWY_INLINE const Taps& tapsOf(const Texture& texture, const TextureUse& use, std::size_t unit) {
     const bool same = tapped_ != nullptr && readAlike(*tappedUse_, use) && tapped_->width() == texture.width() &&
                       tapped_->height() == texture.height();

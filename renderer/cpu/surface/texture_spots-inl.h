@@ -14,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
 
-/// Whether two textures of one size are read at the same places, alike.
+/// Whether two textures of one size are read at the same places in the same way.
 inline bool readAlike(const TextureUse& a, const TextureUse& b) {
   return a.texCoord == b.texCoord && a.wrapS == b.wrapS && a.wrapT == b.wrapT && a.nearest == b.nearest &&
          a.minFilter == b.minFilter && a.transform == b.transform;

@@ -31,12 +31,12 @@ struct UploadedDraws {
 using Streams = std::array<gl::VertexStream, 2>; ///< positions, then instances
 
 UploadedDraws upload(const IndexedDraws& draws, const Streams& streams, bool weighted) {
-  std::vector<gl::VertexAttribute> attributes{{GNOMON_POSITION, 0, 3, GL_FLOAT, false, false, 0}};
+  std::vector<gl::VertexAttribute> attributes{{GNOMON_POSITION, 0, 3, GL_FLOAT, false, 0}};
   for (GLuint row = 0; row < 3; ++row) {
     const auto offset = static_cast<GLuint>(row * sizeof(glm::vec4));
-    attributes.push_back({GNOMON_INSTANCE_ROWS + row, 1, 4, GL_FLOAT, false, false, offset});
+    attributes.push_back({GNOMON_INSTANCE_ROWS + row, 1, 4, GL_FLOAT, false, offset});
   }
-  if (weighted) attributes.push_back({GNOMON_PLACE_WEIGHT, 0, 1, GL_FLOAT, false, false, sizeof(glm::vec3)});
+  if (weighted) attributes.push_back({GNOMON_PLACE_WEIGHT, 0, 1, GL_FLOAT, false, sizeof(glm::vec3)});
   UploadedDraws uploaded;
   uploaded.indices = gl::Buffer(gl::bytesOf(draws.indices), "shadow volume indices");
   uploaded.ranges = gl::Buffer(gl::bytesOf(draws.ranges), "shadow volume ranges");
@@ -136,7 +136,7 @@ Status writeVisibility(const PassInputs& inputs, const StencilCounts& counts, co
   const auto program =
       inputs.programs.get({"fullscreen.vert", "stencil_visibility.frag", samplesDefine(samplesOf(counts))});
   if (!program) return program.problems();
-  const auto target = gl::Framebuffer::create({{{&visibility, 0, layer}}, {}}, "visibility");
+  const auto target = gl::Framebuffer::create({{{&visibility, layer}}, {}}, "visibility");
   if (!target) return target.problems();
   gl::drawFullscreen(**program, {.framebuffer = target->id(), .viewport = {0, 0, inputs.width, inputs.height}},
                      {{0, &counts.depthStencil}});

@@ -10,8 +10,11 @@
 #include "protocol/spec/limits.h"
 #include "protocol/spec/traits.h"
 #include "renderer/core/light.h"
+#include "renderer/gl/framebuffer.h"
+#include "renderer/gl/pipeline_state.h"
+#include "renderer/passes/draw_batch.h"
 #include "renderer/passes/stencil/stencil_pass.h"
-#include "renderer/passes/views/shown_triangles.h"
+#include "renderer/passes/views/surface_pass.h"
 #include "renderer/techniques/traced_shadow.h"
 
 namespace gnomon {
@@ -33,6 +36,48 @@ Status stencilShadow(const PassInputs& inputs, const Shading& shading, const Sur
   shadows.triangles += volumes->triangles;
   shadows.drawCalls += volumes->drawCalls;
   return Done{};
+}
+
+/// The slots with holes that nothing surely hides.
+std::vector<std::uint8_t> maskedSlots(const PassInputs& inputs, const Survey& survey) {
+  std::vector<std::uint8_t> slots = survey.visible;
+  for (std::size_t i = 0; i < inputs.view.instances.size(); ++i) {
+    const int material = materialOf(inputs.scene, inputs.view.instances[i]);
+    if (hasHoles(inputs.scene.materials[static_cast<std::size_t>(material)])) continue;
+    std::fill(slots.begin() + inputs.geometry.firstSlot[i], slots.begin() + inputs.geometry.firstSlot[i + 1], 0);
+  }
+  return slots;
+}
+
+/// Where masked or blended triangles lie before what the survey found, or are it, holes and all: 255 there, one a
+/// pixel, from the LOWEST row. Where alpha is as good as the cutoff, their holes may differ from those that rays meet.
+/// Empty where the view holds none. With several samples a pixel, also those behind. Waits for the device.
+Result<std::vector<std::uint8_t>> maskCoverage(const PassInputs& inputs, const Survey& survey) {
+  DrawList list =
+      buildDrawList(inputs.scene, inputs.view, inputs.geometry, DrawUse::survey, maskedSlots(inputs, survey));
+  if (list.ranges.empty()) return std::vector<std::uint8_t>{};
+  for (DrawGroup& group : list.groups) group.material = -1; // nothing but positions matters
+  const auto program = inputs.programs.get({"survey.vert", "covered.frag", {}});
+  if (!program) return program.problems();
+
+  const gl::Texture covered({GL_R8, inputs.width, inputs.height}, "masks");
+  const bool depth = survey.samples == 1;
+  auto target = gl::Framebuffer::create({{{&covered}}, {depth ? &survey.depth : nullptr}}, "masks");
+  if (!target) return target.problems();
+  gl::PipelineState state;
+  state.framebuffer = target->id();
+  state.viewport = {0, 0, inputs.width, inputs.height};
+  state.depth = {depth, false, GL_GEQUAL};
+  gl::apply(state);
+  target->clearColor(0, glm::vec4(0.0f));
+  bindInputs(inputs);
+  const Status drawn =
+      drawGroups(inputs, inputs.vertices, uploadDraws(list), state,
+                 [&](const DrawGroup&, const Material*) -> Result<const gl::Program*> { return *program; });
+  if (!drawn) return drawn.problems();
+  std::vector<std::uint8_t> masks(static_cast<std::size_t>(inputs.width) * static_cast<std::size_t>(inputs.height));
+  target->readColor(0, state.viewport, {GL_RED, GL_UNSIGNED_BYTE}, std::as_writable_bytes(std::span(masks)));
+  return masks;
 }
 
 /// What was drawn, as rays and light maps start from it.

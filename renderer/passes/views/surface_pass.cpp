@@ -114,4 +114,21 @@ Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, in
   return surfaces;
 }
 
+Result<std::vector<std::uint32_t>> shownTriangles(const PassInputs& inputs, const Surfaces& surfaces) {
+  const std::size_t samples = surfaces.samplePositions.size();
+  std::vector<std::uint32_t> shown(static_cast<std::size_t>(inputs.width) * static_cast<std::size_t>(inputs.height) *
+                                   samples);
+  const Rect whole{0, 0, inputs.width, inputs.height};
+  const auto texels = std::as_writable_bytes(std::span(shown));
+  if (samples == 1) {
+    surfaces.triangleNumbers.read(0, whole, {GL_RED_INTEGER, GL_UNSIGNED_INT}, texels);
+    return shown;
+  }
+  const auto numbers =
+      drawTexture(inputs.programs, "triangle_samples.frag", surfaces.triangleNumbers, GNOMON_SURFACE_UNIT, GL_RGBA32UI);
+  if (!numbers) return numbers.problems();
+  numbers->read(0, whole, {GL_RGBA_INTEGER, GL_UNSIGNED_INT}, texels);
+  return shown;
+}
+
 } // namespace gnomon

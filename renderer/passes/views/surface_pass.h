@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "protocol/base/result.h"
 #include "renderer/gl/texture.h"
@@ -37,7 +39,11 @@ struct SurfaceAsks {
 };
 
 /// Draws the surfaces that the survey found, `samples` a pixel (1 or 4). With the survey's own samples its depth and
-/// its visible clusters are exact; else depth is drawn anew.
+/// its visible clusters are exact; else depth is drawn again.
 Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, int samples, const SurfaceAsks& asks);
+
+/// The numbers (prepare/draw_list.h) of what the samples show, pixel by pixel from the LOWEST row; the samples of a
+/// pixel lie side by side. REQUIRES: numbered surfaces.
+Result<std::vector<std::uint32_t>> shownTriangles(const PassInputs& inputs, const Surfaces& surfaces);
 
 } // namespace gnomon

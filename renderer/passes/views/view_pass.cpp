@@ -51,6 +51,12 @@ ViewVariant variantFor(const PassInputs& inputs, const Shading& shading, const V
 
 } // namespace
 
+LightBuffers uploadLights(std::span<const LitLight> lights, const ShadowPlan& plan,
+                          std::span<const std::uint32_t> lists) {
+  return {gl::Buffer(gl::bytesOf(lightData(lights)), "lights"), gl::Buffer(gl::bytesOf(tileData(plan)), "tiles"),
+          gl::Buffer(std::as_bytes(lists), "light lists")};
+}
+
 ViewVariant lightVariant(const PassInputs& inputs, const Shading& shading, bool layersDecide) {
   ViewVariant variant;
   variant.shadows.atlasSamples = shading.spec.atlas.samples;

@@ -1,21 +1,22 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "protocol/base/result.h"
 #include "protocol/spec/frame_spec.h"
 #include "renderer/device/device.h"
+#include "renderer/device/shader_data.h"
+#include "renderer/gl/buffer.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/texture.h"
 #include "renderer/gl/timer.h"
-#include "renderer/passes/light_buffers.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/shader_variants.h"
 #include "renderer/passes/tiles/atlas_views.h"
 #include "renderer/passes/tiles/shadow_pass.h"
 #include "renderer/passes/views/surface_pass.h"
-#include "renderer/passes/views/volume_layers.h"
 
 namespace gnomon {
 
@@ -45,6 +46,16 @@ struct BakedShading {
   int firstLayer = 0;                     ///< of the first of them, an index into FrameWork::layered
 };
 
+/// A frame's lights, their tiles and the light lists of the picture's squares, where shaders read them.
+struct LightBuffers {
+  gl::Buffer lights;
+  gl::Buffer tiles;
+  gl::Buffer lists;
+};
+
+LightBuffers uploadLights(std::span<const LitLight> lights, const ShadowPlan& plan,
+                          std::span<const std::uint32_t> lists = {});
+
 /// What lights the surfaces of a frame.
 struct Shading {
   const FrameSpec& spec; ///< effective
@@ -55,6 +66,13 @@ struct Shading {
   bool lightLists = false;          ///< each square of the picture lists its own; else every light is tried everywhere
   int debugLight = -1;              ///< what views of one light show; -1 = there is none
   BakedShading baked{};             ///< the other lights that are layered have their layers
+};
+
+/// What volumes are to a picture of one number of samples a pixel: found by the processor, read by shaders.
+struct VolumeLayers {
+  gl::Texture picture;               ///< RGBA32F: marchPicture; empty where no view shows them
+  std::vector<std::uint16_t> shadow; ///< volumeShadowPicture; empty where they shade no light
+  gl::Timer timer;
 };
 
 /// What one view is made from.

@@ -41,6 +41,9 @@ using glm::vec4;
 #define GNOMON_SEARCH_TAPS 32
 #define GNOMON_GOLDEN_ANGLE 2.39996323
 
+// Texels that a blur of moments takes along an axis, at most: wider ones take every other texel, or fewer.
+#define GNOMON_BLUR_TAPS 33
+
 // Uniform buffer bindings.
 #define GNOMON_FRAME_BUFFER 0
 
@@ -134,7 +137,7 @@ struct FrameData {
   vec4 background;     // where there is no surface, as it shows
   vec3 ambient;        // radiance of the surroundings
   float exposureScale; // 2^exposure
-  float ahead;         // metres to be added to a depth that is told, as the eye is moved ahead
+  float ahead;         // metres to be added to a depth that is shown, as the eye is moved ahead
   float padding1, padding2, padding3;
 };
 
@@ -182,7 +185,7 @@ struct LightData {
   int type;        // GNOMON_DIRECTIONAL ...
   vec3 position;   // relative
   float range;     // metres; 0 = infinite
-  vec3 radiance;   // colour times intensity
+  vec3 radiance;   // color times intensity
   float strength;  // of its shadow; 0 = casts none
   float coneScale; // spot: the falloff is the square of cosine * coneScale + coneOffset, within 0..1
   float coneOffset;

@@ -5,9 +5,10 @@
 #include "renderer/shaders/shared/frame_types.h"
 
 /// What shaders and C++ both compute, from one text, here a number at a time. The texts use what GLSL and GLM both have
-/// and these names: `Real`, a number; `select(condition, yes, no)`, where numbers may differ in the condition;
-/// `along(row, place)`. They branch only on what is the same for a whole frame, light or material, so that C++ may take
-/// them with `Real` for many numbers at once (renderer/cpu/lanes/shared_functions-inl.h).
+/// and these names: `Real`, a number; `Whole`, an integer; `Truth`, a condition; `select(condition, yes, no)`, where
+/// numbers may differ in the condition; `both(a, b)`; `along(row, place)`. They branch only on what is the same for a
+/// whole frame, light or material, so that C++ may take them with many numbers at once
+/// (renderer/cpu/lanes/shared_functions-inl.h).
 namespace gnomon::shared {
 
 using glm::abs;
@@ -16,8 +17,10 @@ using glm::cross;
 using glm::dot;
 using glm::exp;
 using glm::exp2;
+using glm::fract;
 using glm::inversesqrt;
 using glm::length;
+using glm::log2;
 using glm::max;
 using glm::min;
 using glm::mix;
@@ -27,10 +30,16 @@ using glm::smoothstep;
 using glm::sqrt;
 
 using Real = float;
+using Whole = int;
+using Truth = bool;
 
 template <class T>
 T select(bool condition, const T& yes, const T& no) {
   return condition ? yes : no;
+}
+
+inline bool both(bool a, bool b) {
+  return a && b;
 }
 
 /// A row of an affine matrix times a point.
@@ -46,15 +55,18 @@ inline float along(const vec4& row, const vec3& place) {
 #include "renderer/shaders/shared/surroundings.h"
 // brdf.h calls what surroundings.h defines.
 #include "renderer/shaders/shared/brdf.h"
-#include "renderer/shaders/shared/heat_map.h"
 #include "renderer/shaders/shared/light.h"
 #include "renderer/shaders/shared/moments.h"
 #include "renderer/shaders/shared/normal_map.h"
 #include "renderer/shaders/shared/octahedral.h"
 #include "renderer/shaders/shared/picture.h"
 #include "renderer/shaders/shared/shadow_bias.h"
+// debug_light.h calls what shadow_bias.h defines.
+#include "renderer/shaders/shared/debug_light.h"
+#include "renderer/shaders/shared/shadow_disc.h"
 #include "renderer/shaders/shared/smooth_surface.h"
 #include "renderer/shaders/shared/specular_glossiness.h"
+#include "renderer/shaders/shared/tile_choice.h"
 #undef MANUAL_BIAS
 #undef PUNCTUAL
 #undef GNOMON_OUT

@@ -36,6 +36,14 @@ GNOMON_FUNCTION Real momentDepth(TileData tile, Real z, Real divisor) {
   return clamp(z, 0.0f, 1.0f);
 }
 
+// Of a depth in the map of a perspective tile between `nearest` and `farthest`, metres; 0 0 for parallel light.
+GNOMON_FUNCTION Real linearDepth(float nearest, float farthest, Real z) {
+  if (farthest <= 0.0f) return z;
+  float span = farthest - nearest;
+  Real distance = nearest * farthest / (farthest - z * span);
+  return clamp((distance - nearest) / span, 0.0f, 1.0f);
+}
+
 // The greatest share of a distribution that may lie at or beyond `depth`: Chebyshev's inequality, one tail.
 // (Donnelly, Lauritzen, "Variance Shadow Maps", I3D 2006.)
 GNOMON_FUNCTION Real chebyshev(Real mean, Real square, Real depth, Real leastVariance) {

@@ -1,5 +1,19 @@
 // How far from its own surface a receiver is looked up in a tile, and which depths of that surface count as its own.
 
+// A face turned away from the light, or along it to within rounding, shadows itself: cosine to the light.
+GNOMON_CONSTANT(kTurnedAway, 1e-4f);
+
+// The cosine to the light above which a receiver's triangle leaves all of it before its plane.
+GNOMON_FUNCTION Real wholeLightCosine(LightData light, vec3 relative) {
+  Real whole = kTurnedAway;
+  if (light.filterKind == GNOMON_FILTER_PCSS) {
+    Real radius = light.filterRadius;
+    if (light.type != GNOMON_DIRECTIONAL) radius /= length(vec3(light.position) - relative);
+    whole = max(whole, radius);
+  }
+  return whole;
+}
+
 // The receiver, moved so that its surface doesn't shadow itself: automatically along its normal by
 // reach * sin(angle) (see renderer/shadow/filter_kernel.h), or as the light's own bias says.
 GNOMON_FUNCTION vec3 movedReceiver(LightData light, TileData tile, vec3 relative, vec3 normal, vec3 toLight) {
@@ -35,6 +49,11 @@ GNOMON_FUNCTION vec2 comparedSlope(LightData light, TileData tile, vec3 relative
   if (light.hasManualBias != 0u) return vec2(Real(0.0f));
 #endif
   return receiverSlope(light, tile, relative, normal);
+}
+
+// How far the plane rises from a texel's centre to its corner: a sample may lie half a texel off the centre.
+GNOMON_FUNCTION Real halfTexelRise(vec2 slope) {
+  return 0.5f * (abs(slope.x) + abs(slope.y));
 }
 
 // By how much a surface may rise over the receiver's plane within a texel and not shadow it, z: where it bends by up to

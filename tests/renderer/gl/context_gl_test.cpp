@@ -6,7 +6,7 @@
 
 #include "gl_fixture.h"
 #include "renderer/gl/context.h"
-#include "renderer/gl/gl.h"
+#include "renderer/gl/object.h"
 #include "triangle.h"
 
 namespace gnomon::gl {

@@ -1,6 +1,6 @@
 #include "gl_fixture.h"
 #include "renderer/gl/debug_log.h"
-#include "renderer/gl/gl.h"
+#include "renderer/gl/object.h"
 
 namespace gnomon::gl {
 namespace {

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "renderer/gl/context.h"
+#include "renderer/gl/context_setup.h"
 #include "renderer/gl/debug_log.h"
-#include "renderer/gl/function_table.h"
 
 namespace gnomon::gl {
 

@@ -6,7 +6,6 @@
 #include <span>
 #include <utility>
 
-#include "renderer/cpu/surface/halved_rows.h"
 #include "renderer/scene/scene_image.h"
 #include "tests/renderer/cpu/surface/sampled_truth.h"
 
