@@ -47,7 +47,7 @@ inline Scene load(const testing::GlbBuilder& builder, const Limits& limits = kLi
   return load(builder.bundle(), limits);
 }
 
-inline std::shared_ptr<const Scene> shared(const testing::GlbBuilder& builder) {
+inline std::shared_ptr<const Scene> sharedScene(const testing::GlbBuilder& builder) {
   return std::make_shared<const Scene>(load(builder));
 }
 

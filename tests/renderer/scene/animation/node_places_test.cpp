@@ -84,7 +84,7 @@ testing::GlbBuilder family() {
 }
 
 TEST(NodePlaces, WhatHangsOnAMovedNodeIsWhereAFileWithThatNodeHasIt) {
-  const auto scene = shared(family());
+  const auto scene = sharedScene(family());
   testing::GlbBuilder authored = family();
   authored.json["nodes"][0]["translation"] = {-4, 0.1, 7};
   authored.json["nodes"][0]["rotation"] = {0.1, 0.7, 0.2, 0.3};
@@ -94,7 +94,7 @@ TEST(NodePlaces, WhatHangsOnAMovedNodeIsWhereAFileWithThatNodeHasIt) {
   parent.translation = Vec3{-4, 0.1, 7};
   parent.rotation = {0.1, 0.7, 0.2, 0.3};
   parent.scale = Vec3{1, 3, -0.5};
-  expectSame(*posed(scene, {parent, movedTo("child", {0, 0.3, 0})}), *shared(authored));
+  expectSame(*posed(scene, {parent, movedTo("child", {0, 0.3, 0})}), *sharedScene(authored));
 }
 
 TEST(NodePlaces, AMatrixReplacesAllAndPartsReplaceAMatrix) {
@@ -104,13 +104,13 @@ TEST(NodePlaces, AMatrixReplacesAllAndPartsReplaceAMatrix) {
   authored.json["nodes"][0]["matrix"] = matrix;
   NodeOptions entry = placed(0);
   entry.matrix = matrix.get<std::array<double, 16>>();
-  expectSame(*posed(shared(family()), {entry}), *shared(authored));
+  expectSame(*posed(sharedScene(family()), {entry}), *sharedScene(authored));
 
   testing::GlbBuilder parts = family();
   parts.json["nodes"][0]["translation"] = {0, 1, 0};
-  expectSame(*posed(shared(authored), {movedTo(0, {0, 1, 0})}), *shared(parts));
-  expectSame(*posed(shared(family()), {entry, movedTo(0, {0, 1, 0})}), *shared(parts));
-  expectSame(*posed(shared(family()), {movedTo(0, {0, 1, 0}), entry}), *shared(authored));
+  expectSame(*posed(sharedScene(authored), {movedTo(0, {0, 1, 0})}), *sharedScene(parts));
+  expectSame(*posed(sharedScene(family()), {entry, movedTo(0, {0, 1, 0})}), *sharedScene(parts));
+  expectSame(*posed(sharedScene(family()), {movedTo(0, {0, 1, 0}), entry}), *sharedScene(authored));
 }
 
 TEST(NodePlaces, OfTwoEntriesForANodeTheLaterCountsPartByPart) {
@@ -119,14 +119,14 @@ TEST(NodePlaces, OfTwoEntriesForANodeTheLaterCountsPartByPart) {
   testing::GlbBuilder authored = family();
   authored.json["nodes"][0]["translation"] = {5, 0, 0};
   authored.json["nodes"][0]["scale"] = {3, 1, 1};
-  expectSame(*posed(shared(family()), {movedTo(0, {4, 4, 4}), wide, movedTo(0, {5, 0, 0})}), *shared(authored));
+  expectSame(*posed(sharedScene(family()), {movedTo(0, {4, 4, 4}), wide, movedTo(0, {5, 0, 0})}), *sharedScene(authored));
 }
 
 TEST(NodePlaces, AllNodesOfANameMove) {
   testing::GlbBuilder builder = testing::cube();
   builder.addRoot({{"mesh", 0}});
   for (json& node : builder.json["nodes"]) node["name"] = "both";
-  const auto moved = posed(shared(builder), {movedTo("both", {7, 0, 0})});
+  const auto moved = posed(sharedScene(builder), {movedTo("both", {7, 0, 0})});
   ASSERT_EQ(moved->scenes[0].instances.size(), 2u);
   for (const Instance& instance : moved->scenes[0].instances) EXPECT_EQ(instance.bounds.min.x, 6);
 }
@@ -138,7 +138,7 @@ TEST(NodePlaces, APlaceComesAfterTheAnimation) {
   AnimationMoment moment;
   moment.index = 0;
   moment.timeSeconds = 1;
-  const auto scene = shared(builder);
+  const auto scene = sharedScene(builder);
   const auto moved = posed(scene, {movedTo(0, {0, 5, 0})}, moment);
   EXPECT_EQ(moved->scenes[0].bounds.max, glm::dvec3(2, 7, 2)) << "the animation's scale, and the frame's place";
   EXPECT_EQ(posed(scene, {movedTo(0, {0, 5, 0})})->scenes[0].bounds.max, glm::dvec3(1, 6, 1));
@@ -164,16 +164,16 @@ TEST(NodePlaces, MovedJointsBendTheirSkin) {
   authored.json["nodes"][2]["rotation"] = {0, 0, 1, 1};
   authored.json["nodes"][1]["translation"] = {3, 0, 0};
   authored.json["nodes"][1]["scale"] = {1, 2, 1};
-  const auto scene = shared(skinned());
+  const auto scene = sharedScene(skinned());
   const auto moved = posed(scene, {above, joint});
-  expectSame(*moved, *shared(authored));
+  expectSame(*moved, *sharedScene(authored));
   EXPECT_FALSE(moved->positions == scene->positions);
   EXPECT_FALSE(moved->positions.sharesWith(scene->positions));
 }
 
 TEST(NodePlaces, ARigidMoveSharesAllVertices) {
   for (const testing::GlbBuilder& builder : {family(), skinned()}) {
-    const auto scene = shared(builder);
+    const auto scene = sharedScene(builder);
     const auto moved = posed(scene, {movedTo(0, {1, 1, 1})});
     EXPECT_TRUE(moved->positions.sharesWith(scene->positions));
     EXPECT_TRUE(moved->attributes.sharesWith(scene->attributes));
@@ -185,24 +185,24 @@ TEST(NodePlaces, ARigidMoveSharesAllVertices) {
 TEST(NodePlaces, WhatIsScaledToNothingIsLeftOutAndWhatTheFileHasFlatComesBack) {
   testing::GlbBuilder flat = testing::cube();
   flat.json["nodes"][0]["scale"] = {0, 0, 1};
-  const auto scene = shared(flat);
+  const auto scene = sharedScene(flat);
   EXPECT_TRUE(scene->scenes[0].instances.empty());
   NodeOptions entry = placed(0);
   entry.scale = Vec3{1, 2, 1};
   EXPECT_EQ(posed(scene, {entry})->scenes[0].bounds.max, glm::dvec3(1, 2, 1));
   entry.scale = Vec3{0, 1, 0};
-  EXPECT_TRUE(posed(shared(testing::cube()), {entry})->scenes[0].instances.empty());
+  EXPECT_TRUE(posed(sharedScene(testing::cube()), {entry})->scenes[0].instances.empty());
 }
 
 TEST(NodePlaces, WhatTheFileHidesStaysHidden) {
   testing::GlbBuilder builder = testing::cube();
   builder.json["extensionsUsed"] = {"KHR_node_visibility"};
   builder.json["nodes"][0]["extensions"]["KHR_node_visibility"]["visible"] = false;
-  EXPECT_TRUE(posed(shared(builder), {movedTo(0, {1, 0, 0})})->scenes[0].instances.empty());
+  EXPECT_TRUE(posed(sharedScene(builder), {movedTo(0, {1, 0, 0})})->scenes[0].instances.empty());
 }
 
 TEST(NodePlaces, ThePoseIsKeptAndSwitchesMakeNone) {
-  const auto scene = shared(family());
+  const auto scene = sharedScene(family());
   NodeOptions unseen = placed("child");
   unseen.visible = false;
   EXPECT_EQ(posed(scene, {unseen}), scene);
@@ -214,7 +214,7 @@ TEST(NodePlaces, ThePoseIsKeptAndSwitchesMakeNone) {
 }
 
 TEST(NodePlaces, ProblemsPointToTheirEntry) {
-  const auto scene = shared(family());
+  const auto scene = sharedScene(family());
   EXPECT_EQ(problemOf(scene, {movedTo(0, {}), movedTo(7, {})}).pointer, "/nodes/1/node");
   EXPECT_EQ(problemOf(scene, {movedTo("chil", {})}).pointer, "/nodes/0/node");
   EXPECT_THAT(problemOf(scene, {movedTo("chil", {})}).limit, HasSubstr("child"));
@@ -229,7 +229,7 @@ TEST(NodePlaces, WhatIsNotFiniteIsAProblemOfThePlaceThatTakesItThere) {
   other.translation = Vec3{0, 0, 0};
   testing::GlbBuilder beside = huge;
   beside.addRoot({{"name", "bystander"}});
-  const Problem problem = problemOf(shared(beside), {movedTo("bystander", {1, 1, 1}), entry});
+  const Problem problem = problemOf(sharedScene(beside), {movedTo("bystander", {1, 1, 1}), entry});
   EXPECT_EQ(problem.pointer, "/nodes/1");
   EXPECT_EQ(problem.code, ProblemCode::invalidValue);
 }
@@ -243,7 +243,7 @@ RC_GTEST_PROP(NodePlaces, AnyPlaceIsThatOfAFileWithThatNode, ()) {
   if (*rc::gen::arbitrary<bool>()) node["translation"] = *(entry.translation = three());
   if (*rc::gen::arbitrary<bool>()) node["scale"] = *(entry.scale = three());
   if (*rc::gen::arbitrary<bool>()) node["rotation"] = *(entry.rotation = {number(), number(), number(), 1});
-  expectSame(*posed(shared(family()), {entry}), *shared(authored));
+  expectSame(*posed(sharedScene(family()), {entry}), *sharedScene(authored));
 }
 
 } // namespace

@@ -37,7 +37,7 @@ testing::GlbBuilder flyingCube() {
 }
 
 TEST(PosedScene, InstancesAndBoundsFollowTheirNode) {
-  const auto scene = shared(flyingCube());
+  const auto scene = sharedScene(flyingCube());
   const SceneView& view = posedAt(scene, 1.5)->scenes[0];
   EXPECT_EQ(view.bounds.min, glm::dvec3(1, -1, 0));
   EXPECT_EQ(view.bounds.max, glm::dvec3(3, 1, 2));
@@ -47,7 +47,7 @@ TEST(PosedScene, InstancesAndBoundsFollowTheirNode) {
 }
 
 TEST(PosedScene, BeyondItsEndsAnAnimationStandsStill) {
-  const auto scene = shared(flyingCube());
+  const auto scene = sharedScene(flyingCube());
   EXPECT_EQ(posedAt(scene, -5)->scenes[0].bounds.max, glm::dvec3(1));
   EXPECT_EQ(posedAt(scene, 1)->scenes[0].bounds.max, glm::dvec3(1));
   EXPECT_EQ(posedAt(scene, 3)->scenes[0].bounds.max, glm::dvec3(9, 1, 5));
@@ -61,7 +61,7 @@ TEST(PosedScene, ChildrenFollowAndTurn) {
   builder.add("nodes", {{"children", {0}}});
   const auto half = static_cast<float>(std::numbers::sqrt2 / 2);
   animate(builder, 1, "rotation", {0, 1}, {0, 0, 0, 1, 0, 0, half, half}, "VEC4"); // a quarter around Z
-  const auto scene = shared(builder);
+  const auto scene = sharedScene(builder);
   const glm::dmat4& place = posedAt(scene, 0.5)->scenes[0].instances[0].worldFromLocal;
   const double s = std::sqrt(0.5);
   expectNear(glm::dvec3(place[3]), {2 * s, 2 * s, 0}, 1e-6);
@@ -72,7 +72,7 @@ TEST(PosedScene, WhatIsScaledToNothingAtRestAppearsInItsTime) {
   testing::GlbBuilder builder = testing::cube();
   builder.json["nodes"][0]["scale"] = {0, 0, 0};
   animate(builder, 0, "scale", {0, 1}, {0, 0, 0, 2, 2, 2}, "VEC3");
-  const auto scene = shared(builder);
+  const auto scene = sharedScene(builder);
   EXPECT_TRUE(scene->scenes[0].instances.empty());
   EXPECT_TRUE(posedAt(scene, 0)->scenes[0].instances.empty());
   EXPECT_EQ(posedAt(scene, 0.75)->scenes[0].bounds.max, glm::dvec3(1.5));
@@ -86,7 +86,7 @@ TEST(PosedScene, CamerasAndLightsRideOnTheirNodes) {
   animate(builder, 1, "translation", {0, 1}, {0, 0, 9, 4, 0, 9}, "VEC3");
   const auto half = static_cast<float>(std::numbers::sqrt2 / 2);
   animate(builder, 1, "rotation", {0, 1}, {0, 0, 0, 1, 0, half, 0, half}, "VEC4");
-  const auto posed = posedAt(shared(builder), 1);
+  const auto posed = posedAt(sharedScene(builder), 1);
   const SceneView& view = posed->scenes[0];
   expectNear(view.cameras.at(0).eye, {4, 0, 9});
   expectNear(view.cameras.at(0).forward, {-1, 0, 0}, 1e-6);
@@ -101,7 +101,7 @@ TEST(PosedScene, WeightsMoveMorphTargets) {
   const int other = builder.addPoints(std::vector<testing::Point>(vertices, {0, 0, 2}));
   builder.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", target}}, {{"POSITION", other}}};
   animate(builder, 0, "weights", {0, 2}, {0, 1, 1, 1}, "SCALAR");
-  const auto scene = shared(builder);
+  const auto scene = sharedScene(builder);
   EXPECT_EQ(scene->scenes[0].bounds.max, glm::dvec3(1)) << "the file's own weights are 0";
   EXPECT_EQ(posedAt(scene, 0.5)->scenes[0].bounds.min, glm::dvec3(-1, 0.5, 1));
   EXPECT_EQ(posedAt(scene, 0.5)->scenes[0].bounds.max, glm::dvec3(1, 2.5, 3));
@@ -141,7 +141,7 @@ TEST(PosedScene, SkinnedVerticesStandWhereTheirJointsTakeThem) {
   animate(builder, 1, "translation", {0, 1}, {10, 0, 0, 10, 0, 6}, "VEC3");
 
   const double share = 0.25;
-  const auto posed = posedAt(shared(builder), share);
+  const auto posed = posedAt(sharedScene(builder), share);
   const glm::dmat4 lower = glm::translate(glm::dmat4(1), glm::dvec3(10, 0, 6 * share));
   const glm::dmat4 upper = lower * glm::translate(glm::dmat4(1), glm::dvec3(0, 1, 0)) *
                            glm::rotate(glm::dmat4(1), angle * share, glm::dvec3(0, 0, 1)) *
@@ -162,7 +162,7 @@ TEST(PosedScene, SkinnedVerticesStandWhereTheirJointsTakeThem) {
 }
 
 TEST(PosedScene, ThePoseThatWasAskedForIsKept) {
-  const auto scene = shared(flyingCube());
+  const auto scene = sharedScene(flyingCube());
   const auto first = posedAt(scene, 1.5);
   EXPECT_EQ(posedAt(scene, 1.5), first);
   EXPECT_NE(posedAt(scene, 1.75), first);
@@ -170,13 +170,13 @@ TEST(PosedScene, ThePoseThatWasAskedForIsKept) {
 }
 
 TEST(PosedScene, WithoutAnAnimationItIsTheSceneItself) {
-  const auto scene = shared(flyingCube());
+  const auto scene = sharedScene(flyingCube());
   EXPECT_EQ(*posedScene(scene, {}), scene);
   EXPECT_EQ(*posedScene(scene, {AnimationMoment{}}), scene);
 }
 
 TEST(PosedScene, UnknownAnimationsAreToldWithThoseThereAre) {
-  const auto scene = shared(flyingCube());
+  const auto scene = sharedScene(flyingCube());
   AnimationMoment moment;
   moment.index = 1;
   const auto byIndex = posedScene(scene, {moment});
@@ -191,7 +191,7 @@ TEST(PosedScene, UnknownAnimationsAreToldWithThoseThereAre) {
   EXPECT_EQ(byName.problems()[0].limit, "\"Move\"");
   moment.name = "Move";
   EXPECT_TRUE(posedScene(scene, {moment}));
-  EXPECT_FALSE(posedScene(shared(testing::cube()), {moment})) << "a scene without animations";
+  EXPECT_FALSE(posedScene(sharedScene(testing::cube()), {moment})) << "a scene without animations";
 }
 
 TEST(PosedScene, APlaceBeyondWhatIsFiniteIsAProblem) {
@@ -200,7 +200,7 @@ TEST(PosedScene, APlaceBeyondWhatIsFiniteIsAProblem) {
   builder.json["scenes"][0]["nodes"] = {1};
   builder.add("nodes", {{"children", {0}}});
   animate(builder, 1, "scale", {0, 1}, {1, 1, 1, 3e38f, 1, 1}, "VEC3");
-  const auto scene = shared(builder);
+  const auto scene = sharedScene(builder);
   EXPECT_TRUE(posedScene(scene, {at(0)}));
   const auto lost = posedScene(scene, {at(1)});
   ASSERT_FALSE(lost);
