@@ -51,7 +51,7 @@ BROKEN = [
     ("server/API.md", "| `plan` | planning |\n", "", "server/API.md: stage plan is missing"),
     ("clients/web/fields.mjs", "  ['depth', 'Depth'],\n", "", "clients/web/fields.mjs: view depth is missing"),
     ("clients/web/fields.mjs", "  plan: '#1',\n", "", "clients/web/fields.mjs: stage plan is missing"),
-    ("server/metrics/request_metrics.h", '"plan", ', "", "server/metrics/labels.h: stage plan is missing"),
+    ("server/metrics/request_metrics.h", '"plan", ', "", "server/metrics/request_metrics.h: stage plan is missing"),
     ("protocol/report/frame_report.h", "plan", "plan load", "there is no stage load"),
     ("protocol/report/report_rows.h", "plan, ", "", "protocol/report/report_rows.h: stage plan is missing"),
     ("renderer/SHADOWS.md", "| `maps` | a map |\n", "", "renderer/SHADOWS.md: technique maps is missing"),

@@ -73,7 +73,7 @@ TEST(ShadowFrames, H4_NoAcneOnPlanesOfAnyTilt) {
         for (const int cascades : {1, 4}) {
           Json spec = planeSpec(degrees, sun, filter, "Small", lift);
           spec["shadow"]["cascadeCount"] = cascades;
-          EXPECT_EQ(darkPixels(renderJson(scene, spec.dump()), 0.999f), 0)
+          EXPECT_LE(darkPixels(renderJson(scene, spec.dump()), 0.999f), darkByRounding(filter))
               << degrees << " degrees, " << filter << ", lift " << lift << ", " << cascades;
         }
       }
