@@ -5,8 +5,8 @@ GNOMON_FUNCTION vec3 rowGradient(TileData tile, int row, Real coordinate) {
   return vec3(tile.atlasFromRelative[row]) - vec3(tile.atlasFromRelative[3]) * coordinate;
 }
 
-// Pixels that a point crosses on the picture for each metre that it moves along `way`. `right`, `up`: the frame's, divided
-// by the squares of their lengths.
+// Pixels that a point crosses on the picture for each metre that it moves along `way`. `right`, `up`: the frame's,
+// divided by the squares of their lengths.
 GNOMON_FUNCTION vec2 pixelsAlong(FrameData frame, vec3 right, vec3 up, vec3 relative, Real viewDepth, vec3 way) {
   vec2 moved = vec2(dot(way, right), dot(way, up));
   if (frame.perspective != 0u) {
@@ -48,8 +48,8 @@ GNOMON_FUNCTION Real edgeScale(TexelEdges edges) {
   return max(abs(edges.scale), 1e-30f);
 }
 
-// The largest extent in pixels of the texel under the point: the greater singular value of its two edges. (Lloyd et al.,
-// "Logarithmic Perspective Shadow Maps", 2008: the aliasing error m.) At most what 16 bits of an EXR can hold.
+// The largest extent in pixels of the texel under the point: the greater singular value of its two edges. (Lloyd et
+// al., "Logarithmic Perspective Shadow Maps", 2008: the aliasing error m.) At most what 16 bits of an EXR can hold.
 GNOMON_FUNCTION Real texelDensity(TexelEdges edges) {
   Real uu = dot(edges.u, edges.u);
   Real vv = dot(edges.v, edges.v);
@@ -80,8 +80,8 @@ GNOMON_FUNCTION Real heatOfMetres(Real metres) {
   return 1.0f + 0.25f * kDecades * log2(max(metres, 1e-9f));
 }
 
-// The mean of a wave of squares, -1 and 1, over a pixel that spans `width` of them: the difference over the pixel of the
-// wave's integral, a triangle wave.
+// The mean of a wave of squares, -1 and 1, over a pixel that spans `width` of them: the difference over the pixel of
+// the wave's integral, a triangle wave.
 GNOMON_FUNCTION Real squareWave(Real place, Real width) {
   Real before = 1.0f - abs(2.0f * fract((place - 0.5f * width) * 0.5f) - 1.0f);
   Real after = 1.0f - abs(2.0f * fract((place + 0.5f * width) * 0.5f) - 1.0f);
