@@ -1,13 +1,13 @@
-// Comparisons over a disc of the world, and how wide that is for a penumbra (Fernando, "Percentage-Closer Soft Shadows",
-// SIGGRAPH 2005). Depths of light from a point are lines in 1 / distance, as the width of a penumbra is, seen from the
-// light: one formula serves all lights. `atlasWidth`, `atlasHeight`: texels, powers of two.
+// Comparisons over a disc of the world, and how wide that is for a penumbra (Fernando, "Percentage-Closer Soft
+// Shadows", SIGGRAPH 2005). Depths of light from a point are lines in 1 / distance, as the width of a penumbra is, seen
+// from the light: one formula serves all lights. `atlasWidth`, `atlasHeight`: texels, powers of two.
 
 // Of a disc so far before the receiver that all of it is above its plane.
 GNOMON_CONSTANT(kWholeDisc, 1e30f);
 
-// The angle by which a pixel turns the taps, so that their pattern shows as fine noise and not as bands. `weighted`: the sum
-// of the pixel's x times kNoiseX and y times kNoiseY. (Jimenez, "Next Generation Post Processing in Call of Duty", 2014:
-// interleaved gradient noise.)
+// The angle by which a pixel turns the taps, so that their pattern shows as fine noise and not as bands. `weighted`:
+// the sum of the pixel's x times kNoiseX and y times kNoiseY. (Jimenez, "Next Generation Post Processing in Call of
+// Duty", 2014: interleaved gradient noise.)
 GNOMON_CONSTANT(kNoiseX, 0.06711056f);
 GNOMON_CONSTANT(kNoiseY, 0.00583715f);
 

@@ -16,7 +16,7 @@ GNOMON_FUNCTION TileChoice cascadeChoice(LightData light, Whole index, Real blen
   Real zone = select(far > blendNear, smoothstep(blendNear, far, viewDepth), Real(0.0f));
   TileChoice choice;
   choice.first = index;
-  choice.second = select(both(index < last, zone > 0.0f), index + 1, index);
+  choice.second = select(both(zone > 0.0f, index < last), index + 1, index);
   choice.blend = select(isLast, Real(0.0f), zone);
   choice.fade = Real(0.0f);
   choice.covered = viewDepth >= nearest;

@@ -10,9 +10,8 @@
 #include <sys/socket.h>
 #include <thread>
 
-#include "server/http/worker_pool.h"
-
 #include "server/http/http_server.h"
+#include "server/http/worker_pool.h"
 
 namespace gnomon {
 namespace {

@@ -9,12 +9,12 @@
 #include <thread>
 #include <unistd.h>
 
+#include "protocol/base/text.h"
 #include "server/process/serve_flags.h"
 #include "server/process/serve_option_rows.h"
 #include "server/process/signals.h"
 #include "tests/server/system/pipe.h"
 #include "tests/support/page_table.h"
-#include "protocol/base/text.h"
 
 namespace gnomon {
 namespace {

@@ -119,7 +119,8 @@ TEST(NodePlaces, OfTwoEntriesForANodeTheLaterCountsPartByPart) {
   testing::GlbBuilder authored = family();
   authored.json["nodes"][0]["translation"] = {5, 0, 0};
   authored.json["nodes"][0]["scale"] = {3, 1, 1};
-  expectSame(*posed(sharedScene(family()), {movedTo(0, {4, 4, 4}), wide, movedTo(0, {5, 0, 0})}), *sharedScene(authored));
+  expectSame(*posed(sharedScene(family()), {movedTo(0, {4, 4, 4}), wide, movedTo(0, {5, 0, 0})}),
+             *sharedScene(authored));
 }
 
 TEST(NodePlaces, AllNodesOfANameMove) {
