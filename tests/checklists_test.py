@@ -85,7 +85,11 @@ class Checklists(unittest.TestCase):
         self.edit("protocol/spec/traits.h", r"ViewTraits\{View::edgeDistance,[^\n]*\n",
                   "    ViewTraits{View::scratch, ViewSource::data, false, false, false, false, false, false, false, channels::kValue, channels::kValue},\n")
         self.assert_fine(rows)
-        # 2. What it draws, under the define that follows from its name.
+        # 2. What it draws: by the processor, which lists its views, and under the define that follows from its name.
+        processor = '#include "renderer/cpu/show/show_view.h"\n'
+        self.assert_refused(processor, "kDataViews")
+        self.edit("renderer/cpu/show/show_view.h", r"kDataViews\{.*?View::casterIds,", " View::scratch,")
+        self.assert_fine(processor)
         self.edit("renderer/shaders/view.frag", r"\nvec4 data\(Sample seen\) \{\n", "#ifdef VIEW_SCRATCH\n  return vec4(0.5);\n#endif\n")
         self.assertIn("return vec4(0.5);", self.expanded_shader("view.frag", "VIEW_SCRATCH"))
         # 3. Its names for people.
@@ -123,6 +127,13 @@ class Checklists(unittest.TestCase):
         self.edit("renderer/shadow/filter_kernel.cpp", r"FilterTraits\{FilterType::msm,[^\n]*\n",
                   "    FilterTraits{FilterType::scratch, MapReadingKind::texels, MapReadingKind::disc, true, false},\n")
         self.assert_fine(kernel)
+        # A new way of reading maps is listed, numbered for shaders, and looked up by the processor.
+        lookups = '#include "renderer/cpu/shadow/map_queries.cpp"\n'
+        self.edit("renderer/shadow/filter_kernel.h", r"\n  pcss", ",\n  scratched")
+        self.assert_refused(kernel, "isEnumerator")
+        self.edit("renderer/shadow/filter_kernel.h", r"kMapReadingKinds\{.*?MapReadingKind::pcss", ", MapReadingKind::scratched")
+        self.assert_refused('#include "renderer/device/shader_data.cpp"\n', "kMapReadingKinds")
+        self.assert_refused(lookups, "A new reading of maps")
         # 3. Its control on the page is checked with the page; what reads kernels compiles as it is.
         self.assert_fine('#include "renderer/shadow/predicted_error.cpp"\n')
 

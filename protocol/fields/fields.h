@@ -189,13 +189,18 @@ struct RetiredWord {
 template <class Enum>
 inline constexpr std::array<RetiredWord, 0> kRetiredWords{};
 
+template <auto kValue>
+consteval bool isEnumerator() {
+  return !compilerName<kValue>().starts_with('(');
+}
+
 /// True where the table holds every enumerator of Enum, in order from 0.
 template <class Enum>
 consteval bool spellsAll() {
   for (std::size_t i = 0; i < kSpellings<Enum>.size(); ++i) {
     if (kSpellings<Enum>[i].value != static_cast<int>(i)) return false;
   }
-  return compilerName<static_cast<Enum>(kSpellings<Enum>.size())>().starts_with('(');
+  return !isEnumerator<static_cast<Enum>(kSpellings<Enum>.size())>();
 }
 
 /// True where a table has one row for each enumerator, in order. `key`: the row's enumerator.

@@ -117,11 +117,9 @@ shared::TileData tileData(const ShadowTile& tile, const glm::dvec2& atlas) {
 } // namespace
 
 int filterKind(const FilterKernel& filter) {
-  using enum MapReadingKind;
-  static_assert(std::array{texels, disc, vsm, evsm, msm, pcss} ==
-                std::array{MapReadingKind{GNOMON_FILTER_KERNEL}, MapReadingKind{GNOMON_FILTER_DISC},
-                           MapReadingKind{GNOMON_FILTER_VSM}, MapReadingKind{GNOMON_FILTER_EVSM},
-                           MapReadingKind{GNOMON_FILTER_MSM}, MapReadingKind{GNOMON_FILTER_PCSS}});
+  static_assert(kMapReadingKinds == std::array{MapReadingKind{GNOMON_FILTER_KERNEL}, MapReadingKind{GNOMON_FILTER_DISC},
+                                               MapReadingKind{GNOMON_FILTER_VSM}, MapReadingKind{GNOMON_FILTER_EVSM},
+                                               MapReadingKind{GNOMON_FILTER_MSM}, MapReadingKind{GNOMON_FILTER_PCSS}});
   return static_cast<int>(filter.kind);
 }
 

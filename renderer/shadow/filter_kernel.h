@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <optional>
 
+#include "protocol/fields/fields.h"
 #include "protocol/spec/shadow_options.h"
 
 namespace gnomon {
@@ -16,6 +18,10 @@ enum class MapReadingKind {
   msm,
   pcss ///< comparisons over a disc as wide as the penumbra of the casters that a search finds
 };
+
+inline constexpr std::array kMapReadingKinds{MapReadingKind::texels, MapReadingKind::disc, MapReadingKind::vsm,
+                                             MapReadingKind::evsm,   MapReadingKind::msm,  MapReadingKind::pcss};
+static_assert(!isEnumerator<static_cast<MapReadingKind>(kMapReadingKinds.size())>());
 
 /// What a filter reads around a point: all that any stage uses of a filter.
 struct FilterKernel {

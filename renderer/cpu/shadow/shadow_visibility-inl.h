@@ -13,9 +13,12 @@
 #include "renderer/cpu/shadow/shadow_filter-inl.h"
 #include "renderer/cpu/shadow/shadow_lookup-inl.h"
 #include "renderer/cpu/shadow/shadow_texels-inl.h"
+#include "renderer/shadow/filter_kernel.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
+
+static_assert(kMapReadingKinds.size() == 6, "A new reading of maps needs its lookup and its reach here.");
 
 /// Share of the light that one tile lets through; 1 outside of what the tile covers. The bounds leave the filter room:
 /// no lookup of it leaves the tile. Lanes outside of `asked` hold anything.

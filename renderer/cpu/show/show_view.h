@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <ranges>
 #include <span>
 
 #include "protocol/spec/traits.h"
@@ -14,6 +16,14 @@
 
 /// A view's picture from the triangles that its samples show: everything else comes from the triangles again.
 namespace gnomon::cpu {
+
+/// Views of numbers, each of which data_view draws.
+inline constexpr std::array kDataViews{View::depth,       View::normal, View::shadow,    View::texelDensity,
+                                       View::blendWeight, View::bias,   View::casterIds, View::albedo};
+static_assert(std::ranges::equal(kDataViews, kViewTraits | std::views::filter([](const ViewTraits& view) {
+                                               return view.source == ViewSource::data;
+                                             }),
+                                 {}, {}, &ViewTraits::view));
 
 /// What a view is made from. All of it outlives the call.
 struct ShowJob {
