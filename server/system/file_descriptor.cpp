@@ -1,11 +1,13 @@
 #include "server/system/file_descriptor.h"
 
 #include <cerrno>
+#include <chrono>
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <thread>
 #include <unistd.h>
 #include <utility>
 
@@ -46,9 +48,20 @@ void MemoryFileWriter::add(std::span<const std::uint8_t> bytes) {
   whole_ = whole_ && writeAll(file_, bytes);
 }
 
-std::optional<FileDescriptor> MemoryFileWriter::finish() {
+/// Pages that the kernel holds for a moment, to move them, make F_SEAL_WRITE fail with EBUSY.
+static bool seal(int fd) {
   constexpr int kSeals = F_SEAL_SEAL | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE;
-  if (!whole_ || ::fcntl(file_.get(), F_ADD_SEALS, kSeals) != 0) return std::nullopt;
+  constexpr int kTries = 10;
+  for (int tries = 0; tries < kTries; ++tries) {
+    if (::fcntl(fd, F_ADD_SEALS, kSeals) == 0) return true;
+    if (errno != EBUSY) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(tries + 1));
+  }
+  return false;
+}
+
+std::optional<FileDescriptor> MemoryFileWriter::finish() {
+  if (!whole_ || !seal(file_.get())) return std::nullopt;
   whole_ = false;
   return std::move(file_);
 }

@@ -162,7 +162,7 @@ test('another scene begins with nothing of the one before', async () => {
   await change(page, () => control(page, 'Variant').selectOption('blue'));
   await page.locator('.node').first().waitFor();
   await change(page, () => page.getByRole('button', { name: 'Seen by the camera: board' }).click());
-  assert.match(await hash(page), /animation.*materialVariant/);
+  await page.waitForFunction(() => /animation.*materialVariant/.test(location.hash));
   await change(page, () => page.locator('label', { hasText: /^VSM$/ }).locator('input').check());
 
   await pick(page, server.scene);
