@@ -71,7 +71,9 @@ int coresToUse() {
 }
 
 void onAllCores(const std::function<void()>& task) {
-  static tbb::task_arena arena(coresToUse());
+  // Callers have slots of their own: without them a bake and its helpers fill the arena, and a frame waits to its end.
+  constexpr int kCallers = 8;
+  static tbb::task_arena arena(coresToUse() - 1 + kCallers, kCallers);
   Stop* const stop = Stop::current();
   // A thread that waits for its own pieces takes none of another task's, which may be long and can't be stopped by it.
   arena.execute([&] {

@@ -77,6 +77,29 @@ TEST(Parallel, CutsPiecesAsAsked) {
   EXPECT_EQ(pieces, 3);
 }
 
+TEST(Parallel, ALoopOfAnotherThreadDoesNotWaitForALongOne) {
+  const auto cores = static_cast<std::size_t>(coresToUse());
+  std::atomic<bool> isOver = false;
+  std::atomic<std::size_t> begun = 0;
+  std::thread longOne([&] {
+    forEach(64 * cores, [&](std::size_t) {
+      ++begun;
+      while (!isOver) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    });
+  });
+  while (begun < cores) std::this_thread::yield(); // every thread that may help is in it
+  std::size_t sum = 0;
+  std::thread shortOne([&] {
+    std::atomic<std::size_t> counted = 0;
+    forEach(100, [&](std::size_t) { ++counted; });
+    sum = counted;
+    isOver = true;
+  });
+  shortOne.join();
+  longOne.join();
+  EXPECT_EQ(sum, 100u);
+}
+
 TEST(ParallelDeathTest, UsesAsManyThreadsAsItsControlGroupGrants) {
   if (!canGrantCores()) GTEST_SKIP() << "control groups can't be replaced here";
   GTEST_FLAG_SET(death_test_style, "threadsafe");
