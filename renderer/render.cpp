@@ -36,7 +36,7 @@ bool mayHaveGpu() {
   return false;
 }
 
-/// An explicit context, or the wish for a GPU, is one for OpenGL.
+/// An explicit context, or a required GPU, is a request for OpenGL.
 Result<DeviceChoice> askedDevice(const BackendOptions& backend) {
   const bool namesContext = backend.backend != Backend::auto_ || backend.requireGpu;
   if (!namesContext || backend.device == DeviceChoice::gl) return backend.device;
