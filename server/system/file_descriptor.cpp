@@ -12,6 +12,21 @@
 #include <utility>
 
 namespace gnomon {
+namespace {
+
+/// Pages that the kernel holds for a moment, to move them, make F_SEAL_WRITE fail with EBUSY.
+bool seal(int fd) {
+  constexpr int kSeals = F_SEAL_SEAL | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE;
+  constexpr int kTries = 10;
+  for (int tries = 0; tries < kTries; ++tries) {
+    if (::fcntl(fd, F_ADD_SEALS, kSeals) == 0) return true;
+    if (errno != EBUSY) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(tries + 1));
+  }
+  return false;
+}
+
+} // namespace
 
 FileDescriptor& FileDescriptor::operator=(FileDescriptor&& other) noexcept {
   if (this != &other) {
@@ -46,18 +61,6 @@ MemoryFileWriter::MemoryFileWriter()
 
 void MemoryFileWriter::add(std::span<const std::uint8_t> bytes) {
   whole_ = whole_ && writeAll(file_, bytes);
-}
-
-/// Pages that the kernel holds for a moment, to move them, make F_SEAL_WRITE fail with EBUSY.
-static bool seal(int fd) {
-  constexpr int kSeals = F_SEAL_SEAL | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE;
-  constexpr int kTries = 10;
-  for (int tries = 0; tries < kTries; ++tries) {
-    if (::fcntl(fd, F_ADD_SEALS, kSeals) == 0) return true;
-    if (errno != EBUSY) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(tries + 1));
-  }
-  return false;
 }
 
 std::optional<FileDescriptor> MemoryFileWriter::finish() {

@@ -6,7 +6,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from command_line import BOX, OK, PROBLEM, SMALL, USAGE, CommandLine, gnomon, split_glb
+from command_line import BOX, OK, PROBLEM, SMALL, USAGE, AgainstServer, CommandLine, gnomon, split_glb
 from shipped_server import Server
 
 
@@ -52,13 +52,7 @@ class WithKeys(CommandLine):
         self.assert_ends(gnomon(*arguments[:-2], "--key-file", str(empty)), USAGE, "--server")
 
 
-class WithServer(CommandLine):
-    @classmethod
-    def setUpClass(cls):
-        cls.server = Server()
-        cls.addClassCleanup(cls.server.__exit__)
-        cls.url = "http://{}:{}".format(*cls.server.address)
-
+class WithServer(AgainstServer):
     def both(self, *arguments, scene=BOX):
         """The files that a render gives here, and there."""
         files = []
