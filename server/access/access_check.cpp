@@ -94,7 +94,7 @@ class AccessCheck {
       Admission admission = usage->admit(key);
       if (!admission.place) return tooOften(key, admission.retryAfterSeconds, asked);
       if (isSigned) dropSignature(asked);
-      asked.client = key.name;
+      asked.client = {"key " + key.name, "key " + key.name};
       asked.key = key.name;
       HttpReply reply = answer(std::move(asked), clientGone);
       reply.key = key.name;

@@ -102,6 +102,12 @@ std::optional<IpNetwork> ipNetwork(std::string_view text) {
   return IpNetwork{*first, *bits};
 }
 
+std::string textOf(const IpAddress& address) {
+  std::array<char, INET6_ADDRSTRLEN> text{};
+  ::inet_ntop(address.isIpv6 ? AF_INET6 : AF_INET, address.bytes.data(), text.data(), text.size());
+  return text.data();
+}
+
 } // namespace
 
 std::optional<IpAddress> ipAddress(std::string_view text) {
@@ -119,10 +125,14 @@ std::optional<IpAddress> ipAddress(std::string_view text) {
 }
 
 PeerAddress peerAddress(const IpAddress& address) {
-  std::array<char, INET6_ADDRSTRLEN> text{};
-  ::inet_ntop(address.isIpv6 ? AF_INET6 : AF_INET, address.bytes.data(), text.data(), text.size());
-  const std::size_t networkBytes = address.isIpv6 ? 8 : 4;
-  return {text.data(), std::string(address.bytes.begin(), address.bytes.begin() + networkBytes)};
+  const std::string text = textOf(address);
+  if (!address.isIpv6) return {text, {text, text}};
+  const auto network = [&](std::size_t bytes) {
+    IpAddress first = address;
+    std::fill(first.bytes.begin() + static_cast<std::ptrdiff_t>(bytes), first.bytes.end(), std::uint8_t{0});
+    return textOf(first) + "/" + std::to_string(8 * bytes);
+  };
+  return {text, {network(8), network(6)}};
 }
 
 bool IpNetwork::holds(const IpAddress& address) const {

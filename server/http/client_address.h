@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "server/http/request.h"
+#include "server/system/client_identity.h"
 #include "server/system/clock.h"
 #include "server/system/file_descriptor.h"
 
@@ -17,8 +18,8 @@ namespace gnomon {
 
 /// The other end of a connection.
 struct PeerAddress {
-  std::string text;    ///< for the log: "192.0.2.7", "2001:db8::1"
-  std::string network; ///< what counts as one client: the address, or the first 64 bits of one of IPv6
+  std::string text;        ///< for the log: "192.0.2.7", "2001:db8::1"
+  ClientIdentity identity; ///< without a key
 };
 
 /// A client between two of its requests.

@@ -79,19 +79,20 @@ class Connection {
   bool serveOne(std::size_t headBytes) {
     const Counted counted(context_.inProgress);
     RequestRecord record;
-    record.client = connection_.peer.text; // until the head is read
+    PeerAddress client = connection_.peer; // until the head is read
     record.start = connection_.arrived;
     const auto head = parseRequestHead(reader_.buffered().substr(0, headBytes));
     reader_.consume(headBytes);
     if (head) {
-      record.client = clientAddress(connection_.peer, head->headers, context_.trustedProxies).text;
-      record.proxy = record.client == connection_.peer.text ? "" : connection_.peer.text;
+      client = clientAddress(connection_.peer, head->headers, context_.trustedProxies);
     }
+    record.client = client.text;
+    record.proxy = record.client == connection_.peer.text ? "" : connection_.peer.text;
     auto request = requestOf(head, record);
     if (!request) {
       return send(problemReply(request.problems(), record.id, {.read = RequestPart::head}), record, false, false);
     }
-    request->client = record.client;
+    request->client = client.identity;
     request->arrived = record.start;
     const bool bodyless = request->method == "HEAD";
 

@@ -98,7 +98,7 @@ std::optional<int> ConnectionSet::newestReady() const {
 std::optional<int> ConnectionSet::firstOfBusiestClient(
     bool ready, const std::function<bool(Clock::time_point, Clock::time_point)>& isBefore) const {
   const auto clientOf = [](const PendingConnection& pending) -> std::string_view {
-    return pending.isReady ? pending.client.network : pending.connection.peer.network;
+    return pending.isReady ? pending.client.identity.name : pending.connection.peer.identity.name;
   };
   std::map<std::string_view, std::size_t> counts;
   std::size_t most = 0;

@@ -188,7 +188,7 @@ void PendingConnections::placeReady() {
 }
 
 PendingConnections::Place PendingConnections::place(int fd, const PendingConnection& pending) {
-  const std::string network = pending.client.network;
+  const std::string network = pending.client.identity.name;
   if (!pool_.hasIdle()) return Place::noThread;
   if (!shares_.take(network)) return Place::noShare;
   const auto connection = std::make_shared<OpenConnection>(connections_.release(fd));

@@ -10,6 +10,7 @@
 #include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
 #include "server/http/url.h"
+#include "server/system/client_identity.h"
 #include "server/system/clock.h"
 
 namespace gnomon {
@@ -67,7 +68,7 @@ struct HttpRequest {
   bool hasBody = false; ///< the head announces a body
   Bytes body;
   TraceContext trace;
-  std::string client;                       ///< its address (client_address.h), or the name of its key
+  ClientIdentity client;
   std::string key;                          ///< the name of its key; empty = the server has none
   Clock::time_point arrived = Clock::now(); ///< its first byte
 };

@@ -41,7 +41,7 @@ void requireSoundOrigin(const HttpRequest& request) {
   const PeerAddress client = clientAddress(kProxy, request.headers, *kProxies);
   const auto address = ipAddress(client.text);
   fuzz::require(address.has_value(), "a client has an address");
-  fuzz::require(client.network == peerAddress(*address).network, "which is in its network");
+  fuzz::require(client.identity == peerAddress(*address).identity, "which is in its network");
 }
 
 } // namespace

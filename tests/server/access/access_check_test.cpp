@@ -39,7 +39,7 @@ HttpService inner(Scope scope) {
     handler.scope = scope;
     handler.answer = [](HttpRequest request, const std::function<bool()>&) {
       HttpReply reply;
-      reply.body = request.client;
+      reply.body = request.client.name;
       reply.headers.emplace_back("Cache-Control", "public, max-age=60");
       return reply;
     };
@@ -50,7 +50,7 @@ HttpService inner(Scope scope) {
 HttpReply ask(const HttpService& service, const std::optional<std::string>& authorization) {
   HttpRequest request;
   request.method = "GET";
-  request.client = "10.0.0.1";
+  request.client = {"10.0.0.1", "10.0.0.1"};
   if (authorization) request.headers.emplace_back("authorization", *authorization);
   return answerOf(service, request);
 }
@@ -84,7 +84,7 @@ TEST(AccessCheck, AKeyThatAllowsItIsTheClient) {
   for (const char* shown : {"Bearer of web", "bearer  of web "}) {
     const HttpReply reply = ask(service, shown);
     EXPECT_EQ(reply.status, 200);
-    EXPECT_EQ(reply.body, "web");
+    EXPECT_EQ(reply.body, "key web");
     EXPECT_EQ(reply.key, "web");
     EXPECT_EQ(header(reply, "Cache-Control"), "private, max-age=60") << "a shared cache asks for no key";
   }

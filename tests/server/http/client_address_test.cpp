@@ -104,9 +104,10 @@ TEST(ClientAddress, TwoHeadersHaveToAgree) {
 }
 
 TEST(ClientAddress, CountsAnIpv6NetworkAsOneClient) {
-  EXPECT_EQ(peer("2001:db8::1").network, peer("2001:db8::ffff").network);
-  EXPECT_NE(peer("2001:db8:0:1::1").network, peer("2001:db8::1").network);
-  EXPECT_EQ(peer("192.0.2.1").network.size(), 4u);
+  EXPECT_EQ(peer("2001:db8::1").identity, (ClientIdentity{"2001:db8::/64", "2001:db8::/48"}));
+  EXPECT_EQ(peer("2001:db8::ffff").identity, peer("2001:db8::1").identity);
+  EXPECT_EQ(peer("2001:db8:0:1::1").identity, (ClientIdentity{"2001:db8:0:1::/64", "2001:db8::/48"}));
+  EXPECT_EQ(peer("192.0.2.1").identity, (ClientIdentity{"192.0.2.1", "192.0.2.1"}));
 }
 
 RC_GTEST_PROP(ClientAddress, AnyHeaderGivesAnAddress, (const std::string& list, const std::string& pairs)) {
