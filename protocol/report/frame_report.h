@@ -163,7 +163,7 @@ struct QualityTrial {
 };
 
 struct QualityReport {
-  bool met = false;
+  std::optional<bool> met{};
   bool cached = false;
   std::size_t chosen{};
   std::vector<QualityTrial> tried{};

@@ -69,7 +69,8 @@ inline constexpr auto kRows<QualityTrial> =
 template <>
 inline constexpr auto kRows<QualityReport> = replyRows(
     "QualityReport", "How a target was met.",
-    field<&QualityReport::met>("False = no settings reach the target, and the best ones were chosen."),
+    field<&QualityReport::met>("False = no settings reach the target, and the best ones were chosen. Absent = the "
+                               "settings were measured in another view of the same kind, and not in this one."),
     field<&QualityReport::cached>(
         "True = the choice of an earlier frame of this scene and kind of view; nothing was measured for this one."),
     field<&QualityReport::chosen>("Index into `tried`."),

@@ -43,7 +43,7 @@ int stepCount(const std::vector<Subject>& subjects, const Evaluation& evaluation
 /// One run from beginning to end.
 class Run {
  public:
-  Run(const ScenePtr& scene, const Evaluation& evaluation, const EvaluationTools& tools,
+  Run(const ScenePtr& scene, const Evaluation& evaluation, const RendererInfo& renderer, const EvaluationTools& tools,
       const EvaluationListener& listener)
       : evaluation_(evaluation), tools_(tools), listener_(listener), truth_(scene, evaluation.referenceSamples) {
     for (std::size_t i = 0; i < evaluation.variants.size(); ++i) {
@@ -51,7 +51,7 @@ class Run {
       EvaluationRow& row = rows_.emplace_back();
       row.variant = variant.patch;
       row.name = variant.name;
-      auto subject = subjectOf(scene, variant, i);
+      auto subject = subjectOf(scene, variant, i, renderer);
       if (subject) {
         subjects_.push_back(std::move(*subject));
       } else {
@@ -143,7 +143,7 @@ Result<EvaluationReport> evaluate(const ScenePtr& scene, const Evaluation& evalu
   const ScenePtr posed = collect(posedScene(scene, poseOf(evaluation.spec)), problems).value_or(scene);
   resolveFrame(*posed, evaluation.spec, problems);
   if (!problems.empty()) return placedAt("/spec", std::move(problems).take());
-  return Run(scene, evaluation, tools, listener).run(renderer);
+  return Run(scene, evaluation, renderer, tools, listener).run(renderer);
 }
 
 namespace {

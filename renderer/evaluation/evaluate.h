@@ -48,11 +48,12 @@ struct EvaluationListener {
   std::function<void(std::size_t index, const EvaluationRow&)> row;
 };
 
-/// Measures every variant: first the error of all, each shadowed light's S read from the view `shadow` at full strength
-/// and without antialiasing; then the time of all as they are asked for, warm, in rounds, so that a machine's drift
-/// affects all of them equally. Variants that see the same from the same place share one reference. Any thread; the
-/// tools are called on it. A variant that cannot be drawn is a row with its problem. A problem of code `unavailable`
-/// where the listener asked to stop; problems of the evaluation's own spec point into /spec.
+/// Measures every variant: first the error of all, each shadowed light's S read from the view `shadow` at full
+/// strength, a sample a pixel, with the maps that the variant's own frame has; then the time of all as they are asked
+/// for, warm, in rounds, so that a machine's drift affects all of them equally. Variants that see the same from the
+/// same place share one reference. Any thread; the tools are called on it. A variant that cannot be drawn is a row with
+/// its problem. A problem of code `unavailable` where the listener asked to stop; problems of the evaluation's own spec
+/// point into /spec.
 Result<EvaluationReport> evaluate(const std::shared_ptr<const Scene>& scene, const Evaluation& evaluation,
                                   const RendererInfo& renderer, const EvaluationTools& tools,
                                   const EvaluationListener& listener = {});

@@ -42,11 +42,11 @@ FrameSpec truthKey(const Subject& subject) {
   return key;
 }
 
-/// Shadows alone, as numbers: what S is read from.
+/// Shadows alone, as numbers, a sample at each pixel's centre: what S is read from. The antialiasing stays, since what
+/// the camera's samples see decides how the frame's maps are planned.
 FrameSpec shadowSpec(const Subject& subject, int light) {
   FrameSpec spec = subject.frame.spec;
   for (Light& each : *spec.lights) each.shadow->strength = 1;
-  spec.antialiasing = Antialiasing::none;
   spec.views = {View::shadow};
   spec.debug = {light, 0, true};
   spec.output.format = ImageFormat::exr;
@@ -84,8 +84,9 @@ std::vector<int> measuredLights(const ResolvedFrame& frame) {
   return lights;
 }
 
-Result<Subject> subjectOf(const ScenePtr& scene, const Variant& variant, std::size_t index) {
-  auto settled = settleFrame(scene, variant.spec, nullptr);
+Result<Subject> subjectOf(const ScenePtr& scene, const Variant& variant, std::size_t index,
+                          const RendererInfo& device) {
+  auto settled = settleFrame(scene, variant.spec, &device);
   if (!settled) return settled.problems();
   Subject subject{index, std::move(settled->frame), {}};
   subject.lights = measuredLights(subject.frame);

@@ -54,8 +54,9 @@ struct Subject {
   std::vector<int> lights; ///< measuredLights
 };
 
-/// The variant on its scene; a problem where nothing in it casts a shadow, or where its shadows take too much memory.
-Result<Subject> subjectOf(const ScenePtr& scene, const Variant& variant, std::size_t index);
+/// The variant on its scene and on the device that draws it; a problem where nothing in it casts a shadow, or where its
+/// shadows take too much memory.
+Result<Subject> subjectOf(const ScenePtr& scene, const Variant& variant, std::size_t index, const RendererInfo& device);
 
 /// Subjects that one reference serves, in order of their first; indices into `subjects`.
 std::vector<std::vector<std::size_t>> shareReferences(const std::vector<Subject>& subjects);

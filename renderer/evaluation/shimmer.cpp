@@ -29,7 +29,6 @@ struct SettledPath {
 
 Result<SettledPath> settlePath(const ScenePtr& scene, FrameSpec spec, std::span<const Camera> path,
                                const RendererInfo& device) {
-  spec.antialiasing = Antialiasing::none; // points are asked, not pixels
   spec.camera = path.front();
   auto first = settleFrame(scene, spec, &device);
   if (!first) return first.problems();

@@ -23,21 +23,27 @@ std::string keyOf(const std::string& sceneId, const std::string& viewClass, Fram
   return sceneId + "\n" + viewClass + "\n" + jsonText(toJson(spec));
 }
 
+/// Equal for frames of one scene in which the same would be measured.
+std::string viewOf(FrameSpec spec) {
+  spec.motionFrom.reset();
+  return hashOf(jsonText(toJson(spec)));
+}
+
 /// The key by which a choice is stored for all servers with the same renderer and as many cores.
 std::string storedKey(const std::string& sceneId, const std::string& key, const RendererInfo& renderer) {
   Sha256 hash;
-  hash.add("quality\n" + renderer.renderer + "\n" + renderer.fingerprint + "\n" + std::to_string(coresToUse()) + "\n" +
-           key);
+  hash.add("quality 2\n" + renderer.renderer + "\n" + renderer.fingerprint + "\n" + std::to_string(coresToUse()) +
+           "\n" + key);
   return sceneId + "-" + hash.hex();
 }
 
-std::optional<QualityReport> storedChoice(LightMapStore& store, const std::string& key) {
+std::optional<QualityChoice> storedChoice(LightMapStore& store, const std::string& key) {
   const auto bytes = store.read(key);
-  return bytes ? readQualityReport(asText(*bytes)) : std::nullopt;
+  return bytes ? readQualityChoice(asText(*bytes)) : std::nullopt;
 }
 
-void storeChoice(LightMapStore& store, const std::string& key, const QualityReport& report) {
-  const std::string text = jsonText(toJson(report));
+void storeChoice(LightMapStore& store, const std::string& key, const QualityChoice& choice) {
+  const std::string text = textOf(choice);
   store.write(key, Bytes(text.begin(), text.end()));
 }
 
@@ -55,18 +61,36 @@ EvaluationListener eventListener(const OrderCall& call) {
 
 } // namespace
 
-std::optional<QualityReport> QualityChoices::find(const std::string& key) {
+std::string textOf(const QualityChoice& choice) {
+  return choice.view + "\n" + jsonText(toJson(choice.report));
+}
+
+std::optional<QualityChoice> readQualityChoice(std::string_view text) {
+  const std::size_t line = text.find('\n');
+  if (line == std::string_view::npos) return std::nullopt;
+  auto report = readQualityReport(text.substr(line + 1));
+  if (!report) return std::nullopt;
+  return QualityChoice{std::string(text.substr(0, line)), *std::move(report)};
+}
+
+QualityReport reusedReport(QualityChoice choice, std::string_view view) {
+  choice.report.cached = true;
+  if (choice.view != view) choice.report.met.reset();
+  return std::move(choice.report);
+}
+
+std::optional<QualityChoice> QualityChoices::find(const std::string& key) {
   const std::string hash = hashOf(key);
   const std::lock_guard lock(mutex_);
   const Entry* const found = entries_.find(hash, &Entry::hash);
-  return found ? std::optional(found->report) : std::nullopt;
+  return found ? std::optional(found->choice) : std::nullopt;
 }
 
-void QualityChoices::keep(const std::string& key, const QualityReport& report) {
+void QualityChoices::keep(const std::string& key, const QualityChoice& choice) {
   const std::string hash = hashOf(key);
   const std::lock_guard lock(mutex_);
   entries_.eraseIf([&](const Entry& entry) { return entry.hash == hash; });
-  entries_.add({hash, report});
+  entries_.add({hash, choice});
   entries_.keepNewest(kMost);
 }
 
@@ -97,20 +121,19 @@ Result<QualityReport> settleQuality(WorkContext& context, const LoadedScene& sce
   const auto views = viewClass(*scene.scene, spec);
   if (!views) return views.problems();
   const std::string key = keyOf(scene.summary.id, *views, spec);
-  if (auto known = context.choices.find(key)) {
-    known->cached = true;
-    return *std::move(known);
-  }
+  const std::string view = viewOf(spec);
+  if (auto known = context.choices.find(key)) return reusedReport(*std::move(known), view);
   const std::string stored = storedKey(scene.summary.id, key, context.renderer.info());
   if (auto known = context.stored ? storedChoice(*context.stored, stored) : std::nullopt) {
     context.choices.keep(key, *known);
-    known->cached = true;
-    return *std::move(known);
+    return reusedReport(*std::move(known), view);
   }
   auto report = chooseQuality(
       spec, [&](const Evaluation& evaluation) { return evaluateScene(context, scene, evaluation, call); });
-  if (report) context.choices.keep(key, *report);
-  if (report && context.stored) storeChoice(*context.stored, stored, *report);
+  if (!report) return report;
+  const QualityChoice choice{view, *report};
+  context.choices.keep(key, choice);
+  if (context.stored) storeChoice(*context.stored, stored, choice);
   return report;
 }
 

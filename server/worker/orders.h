@@ -16,20 +16,33 @@
 /// What a worker does: one function for each kind of order. Each runs on a thread of its own.
 namespace gnomon {
 
+/// Settings that were chosen for one view, and serve others of its kind.
+struct QualityChoice {
+  std::string view; ///< hash of the frame that was measured
+  QualityReport report;
+};
+
+/// As it is stored: the view in a line, then the report as JSON.
+std::string textOf(const QualityChoice& choice);
+std::optional<QualityChoice> readQualityChoice(std::string_view text); ///< nothing where the text is another one
+
+/// What a frame says that takes its settings from `choice`. `view`: hash of that frame.
+QualityReport reusedReport(QualityChoice choice, std::string_view view);
+
 /// Settings chosen for earlier frames with a target, by what decides them; the least recently used are dropped first.
 /// Any thread.
 class QualityChoices {
  public:
   /// `key`: any text. Only its hash is kept.
-  std::optional<QualityReport> find(const std::string& key);
-  void keep(const std::string& key, const QualityReport& report);
+  std::optional<QualityChoice> find(const std::string& key);
+  void keep(const std::string& key, const QualityChoice& choice);
 
  private:
   static constexpr std::size_t kMost = 1024; ///< a few hundred bytes each
 
   struct Entry {
     std::string hash;
-    QualityReport report;
+    QualityChoice choice;
   };
 
   std::mutex mutex_;

@@ -71,7 +71,13 @@ class Frames(ServerTest):
         self.assertNotIn("quality", report["spec"])
         again = self.frame(spec, "application/json").json()["report"]["quality"]
         self.assertTrue(again["cached"])
+        self.assertTrue(again["met"])
         self.assertEqual(again["tried"], quality["tried"])
+        near = spec | {"camera": {"orbit": {"azimuthDegrees": 210.01}}}
+        self.frame(spec | {"camera": {"orbit": {}}}, "application/json")
+        other = self.frame(near, "application/json").json()["report"]["quality"]
+        self.assertTrue(other["cached"])
+        self.assertNotIn("met", other, "this view was not measured")
 
     def test_a_target_that_nothing_reaches_says_so(self):
         reply = self.frame(SMALL | {"quality": {"maxMilliseconds": 0.001}}, "application/json")

@@ -1,5 +1,6 @@
 // Whole evaluations, drawn and traced.
 #include <algorithm>
+#include <random>
 #include <set>
 #include <thread>
 
@@ -57,6 +58,52 @@ TEST(Evaluate, ASweepMeasuresEveryFilterAgainstOneReference) {
   EXPECT_GT(*receivers.begin(), 10'000u);
   EXPECT_GT(rowOf(*report, "hard").metrics->misclassified, 0);
   EXPECT_TRUE(std::any_of(report->rows.begin(), report->rows.end(), [](const auto& row) { return *row.pareto; }));
+}
+
+/// A row's error is that of the frame that its variant gives: view `error` of that very spec.
+void expectErrorsOfFrames(const ScenePtr& scene, const std::vector<Variant>& variants, const EvaluationReport& report) {
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    if (!report.rows[i].metrics) continue; // what this device can't draw
+    FrameSpec spec = variants[i].spec;
+    spec.views = {View::color, View::error};
+    const auto frame = testing::sharedRenderer().render(scene, spec);
+    ASSERT_TRUE(frame) << frame.problems()[0].detail;
+    EXPECT_DOUBLE_EQ(report.rows[i].metrics->misclassified, frame->report.error->misclassified)
+        << variants[i].name << " " << jsonText(toJson(spec.camera));
+  }
+}
+
+TEST(Evaluate, ATargetThatIsMetHoldsForTheFrameThatIsSent) {
+  std::mt19937 random(41);
+  const auto within = [&](double least, double most) {
+    return std::uniform_real_distribution<double>(least, most)(random);
+  };
+  int met = 0;
+  for (int i = 0; i < 100; ++i) {
+    const ScenePtr scene = testing::generatedScene(i % 2 == 0 ? "long_row" : "tilted_planes");
+    const Json json = {
+        {"width", 160},
+        {"height", 90},
+        {"camera",
+         {{"orbit",
+           {{"azimuthDegrees", within(0, 360)},
+            {"elevationDegrees", within(2, 40)},
+            {"target", {within(-8, 8), within(0, 3), within(-8, 8)}},
+            {"distance", within(4, 30)}}}}},
+        {"lights", {{{"sun", {{"azimuthDegrees", within(0, 360)}, {"elevationDegrees", within(12, 70)}}}}}},
+        {"quality", {{"maxError", within(0.0005, 0.01)}}}};
+    const auto spec = decodeFrameSpec(json.dump());
+    ASSERT_TRUE(spec);
+    const auto quality = chooseQuality(*spec, [&](Evaluation evaluation) {
+      evaluation.repeats = 1;
+      auto report = evaluated(scene, evaluation);
+      if (report) expectErrorsOfFrames(scene, evaluation.variants, *report);
+      return report;
+    });
+    if (!quality) continue; // where the camera sees no surface that the sun reaches
+    met += quality->met == true ? 1 : 0;
+  }
+  EXPECT_GT(met, 50);
 }
 
 TEST(Evaluate, EveryShadowedLightCounts) {

@@ -326,7 +326,8 @@ class QualityReport(TypedDict, total=False):
     """How a target was met.
 
     met:
-        False = no settings reach the target, and the best ones were chosen.
+        False = no settings reach the target, and the best ones were chosen. Absent = the settings were measured in
+        another view of the same kind, and not in this one.
     cached:
         True = the choice of an earlier frame of this scene and kind of view; nothing was measured for this one.
     chosen:

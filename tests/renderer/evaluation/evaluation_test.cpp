@@ -52,12 +52,16 @@ ScenePtr emptyScene() {
   return std::make_shared<const Scene>(std::move(scene));
 }
 
+RendererInfo processor() {
+  return {.maxTextureSize = 16'384, .maxSamples = 8, .device = DeviceChoice::cpu};
+}
+
 std::vector<Subject> subjectsOf(const ScenePtr& scene, const char* request) {
   const auto evaluation = decodeEvaluation(request);
   EXPECT_TRUE(evaluation) << evaluation.problems()[0].detail;
   std::vector<Subject> subjects;
   for (std::size_t i = 0; i < evaluation->variants.size(); ++i) {
-    auto subject = subjectOf(scene, evaluation->variants[i], i);
+    auto subject = subjectOf(scene, evaluation->variants[i], i, processor());
     EXPECT_TRUE(subject) << i;
     if (subject) subjects.push_back(std::move(*subject));
   }
@@ -95,7 +99,7 @@ TEST(EvaluationTruth, OnlyLightsThatCastAreMeasured) {
 TEST(EvaluationTruth, WhereNoLightCastsThereIsNothingToMeasure) {
   const ScenePtr scene = emptyScene();
   const auto evaluation = decodeEvaluation(R"({"variants": [{"shadow": {"enabled": false}}]})");
-  const auto subject = subjectOf(scene, evaluation->variants[0], 0);
+  const auto subject = subjectOf(scene, evaluation->variants[0], 0, processor());
   ASSERT_FALSE(subject);
   EXPECT_EQ(subject.problems()[0].pointer, "/shadow");
 }
@@ -209,6 +213,25 @@ DrawFrame litFrames(std::size_t lights, int failing) {
   };
 }
 
+TEST(EvaluationErrors, AreReadFromTheMapsThatTheFrameHasWithItsOwnAntialiasing) {
+  const ScenePtr scene = emptyScene();
+  const auto evaluation =
+      decodeEvaluation(R"({"repeats": 1, "spec": {"width": 16, "height": 16, "lights": [{"sun": {}}]},
+      "variants": [{"antialiasing": "none"}, {"antialiasing": "msaa4x"}, {"shadow": {"strength": 0.5}}]})");
+  ASSERT_TRUE(evaluation);
+  std::vector<FrameSpec> drawn;
+  const DrawFrame draw = [&](const FrameSpec& spec) {
+    drawn.push_back(spec);
+    return litFrames(1, 0)(spec);
+  };
+  ASSERT_TRUE(evaluate(scene, *evaluation, processor(), {draw, {}}));
+  ASSERT_EQ(drawn.size(), 3u + 3 * 2);
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    EXPECT_EQ(drawn[i].antialiasing, i % 3 == 0 ? Antialiasing::none : Antialiasing::msaa4x) << i;
+    EXPECT_EQ(drawn[i].views, std::vector{i < 3 ? View::shadow : View::color}) << i;
+  }
+}
+
 TEST(EvaluationSteps, AreAllFinishedWhicheverLightAVariantFailsAt) {
   const ScenePtr scene = emptyScene();
   const auto evaluation = decodeEvaluation(R"({"repeats": 2, "variants": [{"exposure": 3}, {}],
@@ -221,7 +244,7 @@ TEST(EvaluationSteps, AreAllFinishedWhicheverLightAVariantFailsAt) {
                                         return true;
                                       },
                                       {}};
-    const auto report = evaluate(scene, *evaluation, {}, {litFrames(3, failing), {}}, listener);
+    const auto report = evaluate(scene, *evaluation, processor(), {litFrames(3, failing), {}}, listener);
     ASSERT_TRUE(report) << report.problems()[0].detail;
     EXPECT_EQ(report->rows[0].problems.has_value(), failing < 3) << failing;
     EXPECT_TRUE(report->rows[1].metrics && report->rows[1].milliseconds) << failing;

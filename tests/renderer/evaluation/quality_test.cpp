@@ -40,7 +40,7 @@ const std::vector<Measured> kUsual{{10, 0.05}, {20, 0.01}, {30, 0.02}, {40, 0}, 
 TEST(Quality, H3_TheFastestThatHoldsAnErrorIsChosen) {
   const auto loose = chosenFrom({.maxError = 0.1}, kUsual);
   EXPECT_EQ(settingsOf(*loose), "0");
-  EXPECT_TRUE(loose->met);
+  EXPECT_EQ(loose->met, true);
   EXPECT_EQ(settingsOf(*chosenFrom({.maxError = 0.02}, kUsual)), "1");
   EXPECT_EQ(settingsOf(*chosenFrom({.maxError = 0}, kUsual)), "4");
 }
@@ -50,16 +50,16 @@ TEST(Quality, H3_TheMostExactThatFitsATimeIsChosen) {
   EXPECT_EQ(settingsOf(*chosenFrom({.maxMilliseconds = 31}, kUsual)), "1");
   const auto wide = chosenFrom({.maxMilliseconds = 100}, kUsual);
   EXPECT_EQ(settingsOf(*wide), "4") << "of two without an error the faster";
-  EXPECT_TRUE(wide->met);
+  EXPECT_EQ(wide->met, true);
 }
 
 TEST(Quality, H3_ATargetThatNothingReachesGivesTheBestAndSaysSo) {
   const auto slow = chosenFrom({.maxMilliseconds = 1}, kUsual);
   EXPECT_EQ(settingsOf(*slow), "0");
-  EXPECT_FALSE(slow->met);
+  EXPECT_EQ(slow->met, false);
   const auto wrong = chosenFrom({.maxError = 0}, {{10, 0.5}, {20, 0.1}, {30, 0.1}});
   EXPECT_EQ(settingsOf(*wrong), "1");
-  EXPECT_FALSE(wrong->met);
+  EXPECT_EQ(wrong->met, false);
 }
 
 TEST(Quality, WhatCannotBeDrawnIsLeftOut) {
@@ -127,7 +127,7 @@ TEST(Quality, TheChosenTrialIsTheFrames) {
   });
   ASSERT_TRUE(report);
   EXPECT_EQ(report->chosen, 2u);
-  EXPECT_TRUE(report->met);
+  EXPECT_EQ(report->met, true);
   EXPECT_EQ(withChoice(spec, *report), withTrial(spec, report->tried[2]));
 }
 

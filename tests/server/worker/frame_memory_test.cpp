@@ -65,16 +65,41 @@ TEST(FrameMemory, TheLargestDoesNotOverflow) {
 
 TEST(QualityChoices, RemembersTheLastThatWasUsed) {
   QualityChoices choices;
-  QualityReport report;
-  report.chosen = 3;
+  QualityChoice choice;
+  choice.report.chosen = 3;
   EXPECT_FALSE(choices.find("a"));
-  choices.keep("a", report);
+  choices.keep("a", choice);
   choices.keep("b", {});
   ASSERT_TRUE(choices.find("a"));
-  EXPECT_EQ(choices.find("a")->chosen, 3u);
+  EXPECT_EQ(choices.find("a")->report.chosen, 3u);
   for (int i = 0; i < 1023; ++i) choices.keep(std::to_string(i), {});
   EXPECT_TRUE(choices.find("a")) << "used after b";
   EXPECT_FALSE(choices.find("b"));
+}
+
+QualityChoice measuredIn(std::string view) {
+  QualityChoice choice{std::move(view), {}};
+  choice.report.met = true;
+  choice.report.tried.resize(1);
+  return choice;
+}
+
+TEST(QualityChoices, AnotherViewIsGivenTheSettingsAndNotThatTheTargetIsMet) {
+  const QualityReport same = reusedReport(measuredIn("here"), "here");
+  EXPECT_EQ(same.met, true);
+  EXPECT_TRUE(same.cached);
+  const QualityReport other = reusedReport(measuredIn("here"), "there");
+  EXPECT_FALSE(other.met.has_value());
+  EXPECT_TRUE(other.cached);
+  EXPECT_EQ(other.tried.size(), 1u);
+}
+
+TEST(QualityChoices, AreReadAsTheyWereStored) {
+  const auto read = readQualityChoice(textOf(measuredIn("here")));
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->view, "here");
+  EXPECT_EQ(read->report.met, true);
+  for (const char* text : {"", "{}", "here", "here\n", "here\n{}"}) EXPECT_FALSE(readQualityChoice(text)) << text;
 }
 
 } // namespace
