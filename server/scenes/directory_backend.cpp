@@ -4,12 +4,15 @@
 #include <cerrno>
 #include <fcntl.h>
 #include <filesystem>
+#include <mutex>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+#include <vector>
 
 #include "protocol/base/bytes.h"
 #include "protocol/base/scene_bundle.h"
+#include "server/scenes/removal_delay.h"
 #include "server/scenes/store_quota.h"
 #include "server/scenes/whole_file.h"
 #include "server/system/log.h"
@@ -29,6 +32,11 @@ std::string_view idIn(std::string_view name, std::string_view ending) {
   if (!name.ends_with(ending)) return {};
   name.remove_suffix(ending.size());
   return isSceneId(name) ? name : std::string_view();
+}
+
+/// By errno: what was named is not there, or is there no longer.
+bool isGone() {
+  return errno == ENOENT || errno == ESTALE;
 }
 
 /// By errno.
@@ -70,6 +78,7 @@ class DirectoryBackend final : public SceneBackend {
       : path_(std::move(path)),
         age_(age),
         resolution_(resolutionFor(age)),
+        delay_(age),
         quota_(quotaBytes, [this](const auto& without) { return sizeWithout(without).bytes; }) {}
 
   Status checkRoom(std::uint64_t bytes) override { return quota_.check(bytes); }
@@ -85,13 +94,14 @@ class DirectoryBackend final : public SceneBackend {
   Result<StoredBundle> bundle(const std::string& id) override {
     auto file = std::make_shared<FileDescriptor>(openUsed(pathOf(id, kBundle), resolution_));
     if (*file) return StoredBundle{std::move(file), true};
-    if (!isThere(id)) return unknownScene(id);
-    return Problem{ProblemCode::unavailable, "", "The scene store can't read its disk.", "", ""};
+    if (const Status there = contains(id); !there) return there.problems();
+    return diskProblem("A scene could not be read.");
   }
 
   Status contains(const std::string& id) override {
-    if (!isThere(id)) return unknownScene(id);
-    return Done{};
+    if (openBundle(id)) return Done{};
+    if (isGone()) return missing(id);
+    return diskProblem("A scene could not be read.");
   }
 
   Status use(const std::string& id) override {
@@ -102,13 +112,20 @@ class DirectoryBackend final : public SceneBackend {
 
   Result<ScenePage> page(std::string_view after, std::size_t limit) override {
     PageFinder finder(after, limit);
-    eachName(path_, [&](std::string_view name) {
+    const bool isRead = eachName(path_, [&](std::string_view name) {
       if (const auto id = idIn(name, kBundle); !id.empty()) finder.see(id);
     });
+    if (!isRead) return diskProblem("The scenes could not be listed.");
     return std::move(finder).page();
   }
 
   StoreSize size() override { return sizeWithout({}); }
+
+  StoreState state() override {
+    StoreState state;
+    state.isReachable = isReachable();
+    return state;
+  }
 
   std::optional<std::string> summary(const std::string& id) override {
     const auto bytes = readWhole(pathOf(id, kSummary), kMaxSummaryBytes);
@@ -125,15 +142,19 @@ class DirectoryBackend final : public SceneBackend {
   /// Renamed to "<id>.damaged"; uploading the scene again repairs it.
   void setAside(const std::string& id) override {
     logEvent("store", "The stored bytes of scene " + id + " do not match its id. They are set aside.");
-    ::rename(pathOf(id, kBundle).c_str(), pathOf(id, kDamaged).c_str());
+    const bool moved = ::rename(pathOf(id, kBundle).c_str(), pathOf(id, kDamaged).c_str()) == 0;
+    if (!moved && !isGone()) diskProblem("They could not be set aside.");
   }
 
   Status remove(const std::string& id) override {
     struct stat status {};
     const bool isKnown = ::stat(pathOf(id, kBundle).c_str(), &status) == 0;
-    const bool removed = ::unlink(pathOf(id, kBundle).c_str()) == 0;
+    if (::unlink(pathOf(id, kBundle).c_str()) != 0) {
+      if (!isGone()) return diskProblem("A scene could not be removed.");
+      ::unlink(pathOf(id, kSummary).c_str());
+      return missing(id);
+    }
     ::unlink(pathOf(id, kSummary).c_str());
-    if (!removed) return unknownScene(id);
     if (!syncDirectory(path_)) diskProblem("A removal may not outlive a power cut.");
     quota_.giveBack(isKnown ? static_cast<std::uint64_t>(status.st_size) : 0);
     return Done{};
@@ -151,23 +172,30 @@ class DirectoryBackend final : public SceneBackend {
     removeUnfinished(path_);
     eachName(path_, [&](std::string_view name) { // removals end with the summary, and a server may have ended before
       const std::string id(idIn(name, kSummary));
-      if (!id.empty() && !isThere(id)) ::unlink(pathOf(id, kSummary).c_str());
+      if (!id.empty() && !openBundle(id) && isGone()) ::unlink(pathOf(id, kSummary).c_str());
     });
   }
 
  private:
   std::string pathOf(const std::string& id, const char* ending) const { return path_ + "/" + id + ending; }
 
-  /// Opening looks the name up again where a shared file system would answer access(2) from its cache.
-  bool isThere(const std::string& id) const {
-    const FileDescriptor file(::open(pathOf(id, kBundle).c_str(), O_RDONLY | O_CLOEXEC));
-    return file || (errno != ENOENT && errno != EACCES && errno != ESTALE);
+  bool isReachable() const {
+    return static_cast<bool>(FileDescriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)));
   }
 
-  /// Reads the whole directory; damaged bundles have bytes, too. `without`: scenes whose bundles don't count.
-  StoreSize sizeWithout(const StoreQuota::SceneIds& without) const {
+  /// Of a scene without a bundle, in a directory that may be away itself.
+  Problem missing(const std::string& id) const {
+    return isReachable() ? unknownScene(id) : diskProblem("The directory is away.");
+  }
+
+  /// Opening looks the name up again where a shared file system would answer access(2) from its cache.
+  FileDescriptor openBundle(const std::string& id) const { return openRegular(pathOf(id, kBundle)); }
+
+  /// Reads the whole directory; damaged bundles have bytes, too. `without`: scenes whose bundles don't count. While the
+  /// directory can't be read: what was counted last.
+  StoreSize sizeWithout(const StoreQuota::SceneIds& without) {
     StoreSize size;
-    eachName(path_, [&](std::string_view name) {
+    const bool isRead = eachName(path_, [&](std::string_view name) {
       const std::string id(idIn(name, kBundle));
       const bool isScene = !id.empty();
       if (isScene && without.contains(id)) return;
@@ -177,7 +205,9 @@ class DirectoryBackend final : public SceneBackend {
       size.scenes += isScene ? 1 : 0;
       size.bytes += static_cast<std::uint64_t>(status.st_size);
     });
-    return size;
+    const std::lock_guard lock(counting_);
+    if (isRead) counted_ = size;
+    return counted_;
   }
 
   /// Through to the disk, the bundle first: no summary is ever left without one. Nothing is left where the disk
@@ -192,24 +222,33 @@ class DirectoryBackend final : public SceneBackend {
   }
 
   /// Scenes, each of which is reported, and bundles set aside as long ago.
-  void removeUnused(const SceneListener& removed) const {
-    bool any = false;
+  void removeUnused(const SceneListener& removed) {
+    std::size_t all = 0;
+    std::vector<std::string> unused;
     eachName(path_, [&](std::string_view name) {
-      const std::string id(idIn(name, kBundle));
-      const bool isBundle = !id.empty();
-      if (!isBundle && idIn(name, kDamaged).empty()) return;
-      if (!removeIfUnused((path_ + "/").append(name), age_)) return;
+      if (idIn(name, kBundle).empty() && idIn(name, kDamaged).empty()) return;
+      ++all;
+      if (isUnused((path_ + "/").append(name), age_)) unused.emplace_back(name);
+    });
+    if (!delay_.mayGo(unused.size(), all, Clock::now())) return;
+    bool any = false;
+    for (const std::string& name : unused) {
+      if (!removeIfUnused(path_ + "/" + name, age_)) continue;
       any = true;
-      if (!isBundle) return;
+      const std::string id(idIn(name, kBundle));
+      if (id.empty()) continue;
       ::unlink(pathOf(id, kSummary).c_str());
       removed(id);
-    });
+    }
     if (any) syncDirectory(path_);
   }
 
   const std::string path_;
   const std::chrono::seconds age_;
   const std::chrono::milliseconds resolution_; ///< of the time of a scene's last use
+  RemovalDelay delay_;
+  std::mutex counting_;
+  StoreSize counted_{}; ///< the last time
   StoreQuota quota_;
 };
 

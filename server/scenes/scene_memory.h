@@ -21,7 +21,7 @@ struct StoreSize {
   std::uint64_t bytes = 0; ///< of their bundles; in memory with their summaries
 };
 
-/// How a store that is elsewhere does; of any other, the defaults.
+/// How a store that is elsewhere does; of one in memory, the defaults, and of a directory whether it can be read.
 struct StoreState {
   bool isReachable = true;
   std::size_t connections = 0;

@@ -44,6 +44,17 @@ FileDescriptor openToLock(const std::string& path) {
   return FileDescriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
 }
 
+/// A file that has not been used for so long, locked: no reader can begin to use it. Empty where it is none.
+FileDescriptor lockUnused(const std::string& path, std::chrono::seconds age) {
+  struct stat status {};
+  if (::lstat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode) || !isOlder(status, age)) return {};
+  FileDescriptor file = openToLock(path);
+  if (!file || ::flock(file.get(), LOCK_EX | LOCK_NB) != 0) return {};
+  // A reader may have begun to use it before the lock.
+  if (::fstat(file.get(), &status) != 0 || status.st_nlink == 0 || !isOlder(status, age)) return {};
+  return file;
+}
+
 constexpr std::string_view kTemporary = ".writing-";
 
 /// Appends all that `produce` makes, through to the disk; false when the disk refuses.
@@ -73,10 +84,18 @@ Temporary makeTemporary(const std::filesystem::path& directory) {
 
 } // namespace
 
+FileDescriptor openRegular(const std::string& path) {
+  FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)); // a FIFO would wait for its writer
+  struct stat status {};
+  if (!file || ::fstat(file.get(), &status) != 0 || S_ISREG(status.st_mode)) return file;
+  errno = EINVAL;
+  return {};
+}
+
 FileDescriptor openUsed(const std::string& path, std::chrono::milliseconds resolution) {
   constexpr int kTries = 3; // one that was removed between open and lock may be there again
   for (int i = 0; i < kTries; ++i) {
-    FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    FileDescriptor file = openRegular(path);
     if (!file) return file;
     lockShared(file.get());
     struct stat status {};
@@ -88,14 +107,13 @@ FileDescriptor openUsed(const std::string& path, std::chrono::milliseconds resol
   return {};
 }
 
+bool isUnused(const std::string& path, std::chrono::seconds age) {
+  return static_cast<bool>(lockUnused(path, age));
+}
+
 bool removeIfUnused(const std::string& path, std::chrono::seconds age) {
-  struct stat status {};
-  if (::lstat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode) || !isOlder(status, age)) return false;
-  const FileDescriptor file = openToLock(path);
-  if (!file || ::flock(file.get(), LOCK_EX | LOCK_NB) != 0) return false;
-  // No reader can begin to use it now; but one may have, before the lock.
-  if (::fstat(file.get(), &status) != 0 || status.st_nlink == 0 || !isOlder(status, age)) return false;
-  return ::unlink(path.c_str()) == 0;
+  const FileDescriptor file = lockUnused(path, age);
+  return file && ::unlink(path.c_str()) == 0;
 }
 
 bool placeFile(const std::string& path, const std::function<void(const FileSink&)>& produce) {
@@ -114,10 +132,9 @@ bool syncDirectory(const std::string& path) {
 }
 
 std::optional<Bytes> readWhole(const std::string& path, std::size_t most) {
-  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  const FileDescriptor file = openRegular(path);
   struct stat status {};
-  if (!file || ::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode) ||
-      static_cast<std::size_t>(status.st_size) > most) {
+  if (!file || ::fstat(file.get(), &status) != 0 || static_cast<std::size_t>(status.st_size) > most) {
     return std::nullopt;
   }
   Bytes bytes(static_cast<std::size_t>(status.st_size));
@@ -132,14 +149,21 @@ void removeUnfinished(const std::string& directory) {
   });
 }
 
-void eachName(const std::string& folder, const std::function<void(std::string_view name)>& visit) {
+bool eachName(const std::string& folder, const std::function<void(std::string_view name)>& visit) {
   const auto close = [](DIR* open) { ::closedir(open); };
-  const std::unique_ptr<DIR, decltype(close)> open(::opendir(folder.c_str()), close);
-  if (!open) return;
-  while (const dirent* entry = ::readdir(open.get())) {
+  std::unique_ptr<DIR, decltype(close)> open(::opendir(folder.c_str()), close);
+  if (!open) return false;
+  while (true) {
+    errno = 0;
+    const dirent* const entry = ::readdir(open.get());
+    if (entry == nullptr) break;
     const std::string_view name = entry->d_name;
     if (name != "." && name != "..") visit(name);
   }
+  const int reason = errno;
+  open.reset();
+  errno = reason;
+  return reason == 0;
 }
 
 } // namespace gnomon

@@ -18,11 +18,18 @@ namespace gnomon {
 // Several processes use and remove these: a file's time of change says when it was used last, and a shared lock (flock)
 // that it is in use.
 
-/// Opens a file for reading, holds a shared lock on it until every copy of the descriptor is closed, and marks it as
-/// used now, unless its mark is younger than `resolution`. Empty, with errno, where there is none.
+/// Opens a regular file for reading, and waits for nothing. Empty, with errno, where there is none; EINVAL where it is
+/// no regular file.
+FileDescriptor openRegular(const std::string& path);
+
+/// Opens a regular file for reading, holds a shared lock on it until every copy of the descriptor is closed, and marks
+/// it as used now, unless its mark is younger than `resolution`. Empty, with errno, where there is none.
 FileDescriptor openUsed(const std::string& path, std::chrono::milliseconds resolution);
 
-/// Removes a file that has not been used for so long and is not in use. False where it stays.
+/// Whether a file has not been used for so long and is not in use.
+bool isUnused(const std::string& path, std::chrono::seconds age);
+
+/// Removes such a file. False where it stays.
 bool removeIfUnused(const std::string& path, std::chrono::seconds age);
 
 using FileSink = std::function<void(std::span<const std::uint8_t>)>;
@@ -42,7 +49,7 @@ bool syncDirectory(const std::string& path);
 void removeUnfinished(const std::string& directory);
 
 /// Calls with the name of each entry of a folder, in no order, `.` and `..` left out. What appears or goes meanwhile
-/// may be among them or not. Nothing where the folder can't be read.
-void eachName(const std::string& folder, const std::function<void(std::string_view name)>& visit);
+/// may be among them or not. False, with errno, where the folder can't be read, or not to its end.
+bool eachName(const std::string& folder, const std::function<void(std::string_view name)>& visit);
 
 } // namespace gnomon

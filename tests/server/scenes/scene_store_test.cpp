@@ -5,6 +5,8 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
+#include <thread>
 
 #include "protocol/json/json_codec.h"
 #include "server/scenes/upload.h"
@@ -123,9 +125,78 @@ TEST_F(SceneStoreTest, WhatIsDamagedTakesItsRoom) {
   EXPECT_TRUE(put(*store, scene(3)));
 }
 
+ProblemCode codeOf(const Status& status) {
+  return status ? ProblemCode::internal : status.problems().front().code;
+}
+
+TEST_F(SceneStoreTest, ARemovalThatTheDiskRefusesIsNotOneOfAnUnknownScene) {
+  const auto store = open(directory_);
+  put(*store, scene(1));
+  fs::remove(path(scene(1).id, ".bundle"));
+  fs::create_directory(path(scene(1).id, ".bundle")); // which unlink(2) refuses, also for root
+  EXPECT_EQ(codeOf(store->remove(scene(1).id)), ProblemCode::unavailable);
+  EXPECT_TRUE(fs::exists(path(scene(1).id, ".json"))) << "nothing of it is gone";
+  EXPECT_EQ(codeOf(store->remove(scene(2).id)), ProblemCode::notFound);
+}
+
+TEST_F(SceneStoreTest, ADirectoryThatIsAwayIsNoEmptyStore) {
+  const auto store = open(directory_);
+  put(*store, scene(1));
+  const StoreSize before = store->size();
+  EXPECT_TRUE(store->state().isReachable);
+  const fs::path away = directory_.string() + "-away";
+  fs::rename(directory_, away);
+  for (const bool isFile : {false, true}) {
+    if (isFile) std::ofstream(directory_) << "in its place";
+    EXPECT_FALSE(store->state().isReachable);
+    const auto page = store->page("", 10);
+    ASSERT_FALSE(page) << "an empty list";
+    EXPECT_EQ(page.problems().front().code, ProblemCode::unavailable);
+    EXPECT_EQ(codeOf(store->remove(scene(1).id)), ProblemCode::unavailable);
+    EXPECT_EQ(codeOf(store->use(scene(1).id)), ProblemCode::unavailable);
+    EXPECT_EQ(codeOf(store->contains(scene(2).id)), ProblemCode::unavailable);
+    EXPECT_EQ(store->size().bytes, before.bytes) << "as it was last known";
+  }
+  fs::remove(directory_);
+  fs::rename(away, directory_);
+  EXPECT_TRUE(store->state().isReachable);
+  EXPECT_EQ(store->page("", 10)->ids, std::vector{scene(1).id});
+  EXPECT_TRUE(store->remove(scene(1).id));
+}
+
+TEST_F(SceneStoreTest, AFifoInTheDirectoryHoldsNoOneUp) {
+  const auto store = open(directory_);
+  for (const char* ending : {".bundle", ".json"}) ASSERT_EQ(::mkfifo(path(scene(1).id, ending).c_str(), 0600), 0);
+  EXPECT_EQ(codeOf(store->use(scene(1).id)), ProblemCode::unavailable);
+  EXPECT_FALSE(store->summary(scene(1).id));
+}
+
+TEST_F(SceneStoreTest, ScenesThatAreOldAllAtOnceStayForATenthOfTheirAgeMore) {
+  using std::chrono::seconds;
+  constexpr seconds kAge(4);
+  auto store = *SceneStore::open({.directory = directory_, .age = kAge});
+  for (int i = 1; i <= 4; ++i) put(*store, scene(i));
+  const auto setForward = [&] { // as the files look after the clock was set forward
+    for (int i = 1; i <= 4; ++i) {
+      fs::last_write_time(path(scene(i).id, ".bundle"), fs::file_time_type::clock::now() - std::chrono::hours(48));
+    }
+  };
+  std::vector<std::string> removed;
+  const auto pass = [&] { store->keepClean([&](const std::string& id) { removed.push_back(id); }); };
+  setForward();
+  pass();
+  pass();
+  EXPECT_TRUE(removed.empty());
+  EXPECT_TRUE(store->use(scene(1).id));
+  std::this_thread::sleep_for(std::chrono::milliseconds(kAge) / 10);
+  pass();
+  EXPECT_EQ(removed.size(), 3u);
+  EXPECT_TRUE(store->contains(scene(1).id));
+}
+
 TEST_F(SceneStoreTest, WhatNobodyUsesGoesAndNothingElse) {
   using std::chrono::hours;
-  auto store = *SceneStore::open({.directory = directory_, .age = hours(1)});
+  auto store = *SceneStore::open({.directory = directory_, .age = std::chrono::seconds(10)});
   for (int i = 1; i <= 4; ++i) put(*store, scene(i));
   const auto makeOld = [&](int number, const char* ending) {
     fs::last_write_time(path(scene(number).id, ending), fs::file_time_type::clock::now() - hours(2));
@@ -139,7 +210,10 @@ TEST_F(SceneStoreTest, WhatNobodyUsesGoesAndNothingElse) {
   std::ofstream(directory_ / "notes.bundle") << "not ours";
   fs::last_write_time(directory_ / "notes.bundle", fs::file_time_type::clock::now() - hours(2));
   std::vector<std::string> removed;
-  store->keepClean([&](const std::string& id) { removed.push_back(id); });
+  const auto pass = [&] { store->keepClean([&](const std::string& id) { removed.push_back(id); }); };
+  pass();
+  std::this_thread::sleep_for(std::chrono::milliseconds(1'000));
+  pass();
   EXPECT_EQ(removed, std::vector{scene(1).id});
   EXPECT_FALSE(fs::exists(path(scene(1).id, ".json")));
   EXPECT_TRUE(store->contains(scene(2).id));
