@@ -26,16 +26,22 @@ LocalJobs::Entries::iterator LocalJobs::drop(Entries::iterator entry) {
 }
 
 void LocalJobs::dropOld() {
-  const std::int64_t oldest = unixMilliseconds() - std::chrono::milliseconds(limits_.age).count();
+  const auto oldest = Clock::now() - limits_.age;
   for (auto entry = entries_.begin(); entry != entries_.end();) {
-    entry = entry->progress.changed < oldest ? drop(entry) : std::next(entry);
+    entry = entry->changed < oldest ? drop(entry) : std::next(entry);
   }
 }
 
+void LocalJobs::noteChange(Entry& entry) {
+  entry.changed = Clock::now();
+  entry.progress.changed = unixMilliseconds();
+}
+
 void LocalJobs::end(Entry& entry, JobState state, const Problems& problems) {
+  noteChange(entry);
   entry.progress.state = state;
   entry.progress.problems = problems;
-  entry.progress.ended = entry.progress.changed = unixMilliseconds();
+  entry.progress.ended = entry.progress.changed;
   entry.waiting.clear();
   entry.taken.clear();
 }
@@ -83,7 +89,9 @@ Status LocalJobs::put(const NewJob& job) {
   if (ofClient >= limits_.jobsOfClient) return tooManyJobs(limits_.jobsOfClient);
   if (entries_.size() >= limits_.jobs || bytes_ + job.request.size() > limits_.bytes)
     return noRoomForJobs(limits_.bytes);
-  Entry entry{.job = job, .progress = queuedProgress(job), .file = std::make_shared<ResultFile>(directory_)};
+  auto file = ResultFile::make(directory_);
+  if (!file) return std::move(file).problems();
+  Entry entry{.job = job, .progress = queuedProgress(job), .file = *std::move(file)};
   const int end = job.isChained ? job.first + 1 : job.count;
   for (int index = job.first; index < end; ++index) entry.waiting.push_back({index, job.carried});
   bytes_ += job.request.size();
@@ -110,7 +118,8 @@ Result<std::optional<FrameTurn>> LocalJobs::take(std::chrono::milliseconds patie
     entry->turn = ++turns_;
     if (entry->progress.state == JobState::queued) {
       entry->progress.state = JobState::running;
-      entry->progress.started = entry->progress.changed = unixMilliseconds();
+      noteChange(*entry);
+      entry->progress.started = entry->progress.changed;
     }
     FrameTurn turn{.job = entry->job.id,
                    .index = frame.index,
@@ -159,7 +168,7 @@ Status LocalJobs::finish(const FrameTurn& turn, const JobFrame& frame) {
   entry = wanted();
   if (entry == nullptr) return Done{};
   if (!offset) {
-    end(*entry, JobState::failed, {noRoomForFrame(limits_.bytes)});
+    end(*entry, JobState::failed, offset.problems());
     return Done{};
   }
   entry->kept.emplace(turn.index, KeptFrame{frame.note, *offset, frame.bytes.size()});
@@ -170,7 +179,7 @@ Status LocalJobs::finish(const FrameTurn& turn, const JobFrame& frame) {
   JobProgress& progress = entry->progress;
   progress.bytes += frame.bytes.size();
   ++progress.done;
-  progress.changed = unixMilliseconds();
+  noteChange(*entry);
   if (progress.first + progress.done == progress.count) {
     end(*entry, JobState::done, {});
   } else if (entry->job.isChained) {

@@ -54,7 +54,8 @@ class LocalJobs final : public JobQueue {
     std::deque<WaitingFrame> waiting{};
     std::map<std::string, TakenFrame> taken{}; ///< by receipt
     std::map<int, KeptFrame> kept{};
-    std::uint64_t turn = 0; ///< when a frame of it was taken last; 0 = never
+    std::uint64_t turn = 0;                   ///< when a frame of it was taken last; 0 = never
+    Clock::time_point changed = Clock::now(); ///< progress.changed, by a clock that is never set
   };
   using Entries = std::list<Entry>;
 
@@ -65,6 +66,7 @@ class LocalJobs final : public JobQueue {
   void dropOld();
   void takeBackSilent();
   Entry* nextInTurn();
+  static void noteChange(Entry& entry);
   void end(Entry& entry, JobState state, const Problems& problems);
 
   const JobLimits limits_;
