@@ -61,18 +61,34 @@ void JobRunners::takeFrames() {
     try {
       const auto turn = services_.jobs.take(kPatience);
       if (!turn) {
-        logEvent("jobs", turn.problems().front().detail);
+        say(turn.problems());
         stop_.waitFor(pauseAfter);
         pauseAfter = std::min(pauseAfter * 2, kLongest);
         continue;
       }
       pauseAfter = kShortest;
+      queueIsThere();
       if (*turn) draw(**turn);
     } catch (const std::exception& error) {
       logEvent("jobs", error.what()); // out of memory: the frame is given to others once this one is not renewed
       stop_.waitFor(kLongest);
     }
   }
+}
+
+/// Each attempt of each thread has the same to say while the queue is away.
+void JobRunners::say(const Problems& problems) {
+  const std::lock_guard lock(saying_);
+  if (said_ == problems.front().detail) return;
+  said_ = problems.front().detail;
+  logEvent("jobs", said_);
+}
+
+void JobRunners::queueIsThere() {
+  const std::lock_guard lock(saying_);
+  if (said_.empty()) return;
+  said_.clear();
+  logEvent("jobs", "The queue of jobs can be reached again.");
 }
 
 void JobRunners::draw(const FrameTurn& turn) {
@@ -139,7 +155,7 @@ void JobRunners::keep(const FrameTurn& turn, const JobFrame& frame) {
     const auto kept = services_.jobs.finish(turn, frame);
     if (kept) return count(FrameEnd::drawn);
     if (stop_.raised() || Clock::now() >= until) return count(FrameEnd::givenBack);
-    logEvent("jobs", kept.problems().front().detail);
+    say(kept.problems());
     stop_.waitFor(wait);
   }
 }
@@ -148,14 +164,14 @@ void JobRunners::keep(const FrameTurn& turn, const JobFrame& frame) {
 void JobRunners::fail(const FrameTurn& turn, const Problems& problems) {
   count(FrameEnd::failed);
   const auto stored = services_.jobs.fail(turn, problems);
-  if (!stored) logEvent("jobs", stored.problems().front().detail);
+  if (!stored) say(stored.problems());
 }
 
 /// The same.
 void JobRunners::giveBack(const FrameTurn& turn, bool isTried) {
   count(FrameEnd::givenBack);
   const auto stored = services_.jobs.giveBack(turn, isTried);
-  if (!stored) logEvent("jobs", stored.problems().front().detail);
+  if (!stored) say(stored.problems());
   if (!stopping()) stop_.waitFor(kShortest);
 }
 

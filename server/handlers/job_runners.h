@@ -46,12 +46,16 @@ class JobRunners {
   void keep(const FrameTurn& turn, const JobFrame& frame);
   void fail(const FrameTurn& turn, const Problems& problems);
   void giveBack(const FrameTurn& turn, bool isTried);
+  void say(const Problems& problems);
+  void queueIsThere();
   void count(FrameEnd end) { services_.jobFrames.add(end); }
   bool stopping() const { return stop_.raised() || services_.draining; }
 
   Services& services_;
   JobSequences sequences_;
   StopSignal stop_;
+  std::mutex saying_;
+  std::string said_; ///< why the queue can't be reached; empty = it can
   std::vector<std::thread> threads_;
 };
 

@@ -295,6 +295,10 @@ class Shared(unittest.TestCase):
             self.assertEqual(reply.status, 503, reply.body)
             self.assertGreaterEqual(int(reply.headers["Retry-After"]), 1)
             self.assertEqual(reply.json()["problems"][0]["code"], "unavailable")
+        time.sleep(3)
+        server.settled_log()
+        lines = [line for line in server.log_lines() if line.get("event") == "jobs"]
+        self.assertEqual(len(lines), 1, lines)
         self.redis.start()
         end = time.monotonic() + TIMEOUT
         while server.get(job["address"]).status != 200 and time.monotonic() < end:
