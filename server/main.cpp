@@ -11,6 +11,7 @@
 #include "server/process/resource_plan.h"
 #include "server/process/serve.h"
 #include "server/process/serve_flags.h"
+#include "server/system/file_descriptor.h"
 #include "server/system/memory_limit.h"
 #include "server/worker/sandbox.h"
 #include "server/worker/worker.h"
@@ -95,5 +96,6 @@ int run(int argc, char** argv) {
 } // namespace gnomon
 
 int main(int argc, char** argv) {
+  gnomon::fillStandardDescriptors();
   return gnomon::run(argc, argv);
 }

@@ -44,6 +44,13 @@ void FileDescriptor::reset() {
   if (fd_ >= 0) ::close(release());
 }
 
+void fillStandardDescriptors() {
+  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    const bool isClosed = ::fcntl(standard, F_GETFD) < 0 && errno == EBADF;
+    if (isClosed && ::open("/dev/null", O_RDWR) != standard) ::_exit(1); // the lowest that is free
+  }
+}
+
 StopSignal::StopSignal() : event_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
 
 void StopSignal::raise() noexcept {

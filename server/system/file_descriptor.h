@@ -28,6 +28,10 @@ class FileDescriptor {
   int fd_ = -1;
 };
 
+/// Opens /dev/null as each of the descriptors 0 to 2 that is closed, so that no file or socket of this process becomes
+/// one of them, which are read, written and passed on as standard streams. To be called before anything is opened.
+void fillStandardDescriptors();
+
 /// A signal that many threads can wait for together with their sockets: its descriptor is readable once it is raised.
 class StopSignal {
  public:

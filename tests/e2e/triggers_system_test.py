@@ -1,10 +1,12 @@
 """A system that refuses descriptors, memory or threads: the server goes on, or says why it does not start."""
 
+import os
 import resource
 import shutil
 import socket
 import subprocess
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -48,6 +50,23 @@ class ShortOfEverything(unittest.TestCase):
                 for _ in range(12):
                     self.assertEqual(server.get("/livez").status, 200)
                 self.assertEqual(server.end(), 0)
+
+    def test_streams_that_are_closed_at_the_start_are_the_null_device(self):
+        for closing in ("2>&-", "1>&- 2>&-", "0<&- 1>&- 2>&-"):
+            process = subprocess.Popen(
+                ["sh", "-c", f'exec "$0" "$@" {closing}', BINARY, "serve", "--port", "0", "--device", "cpu"],
+                stdin=subprocess.PIPE, env=environment(),
+            )  # fmt: skip
+            try:
+                deadline = time.monotonic() + TIMEOUT
+                links = Path(f"/proc/{process.pid}/fd")
+                while len(list(links.iterdir())) < 12 and time.monotonic() < deadline:  # until it serves
+                    time.sleep(0.05)
+                for stream in closing.split():
+                    self.assertEqual(os.readlink(links / stream[0]), "/dev/null", closing)
+            finally:
+                process.terminate()
+                process.wait(TIMEOUT)
 
     def start_and_end(self, resource_kind, limit, *flags):
         return subprocess.run(
