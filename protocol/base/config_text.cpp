@@ -15,10 +15,14 @@ bool isKey(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), isAllowed);
 }
 
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF"; ///< which some editors begin a file with
+
 /// Reads a file from its first byte to its last.
 class ConfigReader {
  public:
-  ConfigReader(std::string_view text, std::string_view file) : text_(text), file_(file) {}
+  ConfigReader(std::string_view text, std::string_view file) : text_(text), file_(file) {
+    if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
+  }
 
   Result<std::vector<ConfigSection>> read() {
     while (at_ < text_.size() && problems_.size() < kMostProblems) {

@@ -36,6 +36,12 @@ TEST(ConfigText, ReadsTextsWordsAndLists) {
   EXPECT_THAT((*parsed)[5].values, ElementsAre("512MB"));
 }
 
+TEST(ConfigText, MayBeginWithAByteOrderMark) {
+  const auto parsed = parseConfig("\xEF\xBB\xBFport = 8080\n", "a.conf");
+  ASSERT_TRUE(parsed);
+  EXPECT_EQ(parsed->at(0).key, "port");
+}
+
 TEST(ConfigText, AFaultHasItsLine) {
   EXPECT_EQ(placeOfFault("\n\nport", "KEY = VALUE"), "a.conf:3");
   EXPECT_EQ(placeOfFault("[serve]\n", "no sections"), "a.conf:1");
