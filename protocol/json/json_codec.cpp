@@ -46,7 +46,7 @@ Result<FrameSpec> decodeFrameTree(const JsonNode& root, ProblemList problems) {
 }
 
 Result<FrameSpec> decodeFrameSpec(std::string_view json) {
-  if (json.find_first_not_of(" \t\r\n") == std::string_view::npos) return FrameSpec{};
+  if (json.empty()) return FrameSpec{};
   ProblemList problems;
   const std::optional<JsonNode> root = readJson(json, problems);
   if (!root) return std::move(problems).take();
@@ -102,8 +102,10 @@ Json problemJson(const Problems& problems, int status, std::string_view instance
   const Problem& first = problems.front();
   std::string detail = asUtf8(first.detail);
   if (problems.size() > 1) {
-    detail = "There are " + std::to_string(problems.size()) + " problems, the first at \"" + asUtf8(first.pointer) +
-             "\": " + detail;
+    const bool isAll = problems.size() <= ProblemList::kMax; // else the last one says that there are more
+    const std::string count =
+        isAll ? std::to_string(problems.size()) : "more than " + std::to_string(ProblemList::kMax);
+    detail = "There are " + count + " problems, the first at \"" + asUtf8(first.pointer) + "\": " + detail;
   }
   Json json = {{"type", "/problems/" + std::string(problemName(first.code))},
                {"title", std::string(problemTitle(first.code))},

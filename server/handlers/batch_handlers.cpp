@@ -77,7 +77,7 @@ HttpReply postBake(Services& services, RouteCall call) {
   const std::string& id = call.values.at("id");
   const std::string requestId = call.request.id;
   if (const auto used = services.store.use(id); !used) return problemReply(used.problems(), requestId);
-  const auto spec = decodeFrameSpec(call.request.body.empty() ? "{}" : asText(call.request.body));
+  const auto spec = decodeFrameSpec(asText(call.request.body));
   if (!spec) return problemReply(spec.problems(), requestId);
   const auto accept = headerValue(call.request.headers, "accept");
   const auto form = preferred(accept, kReportForms);

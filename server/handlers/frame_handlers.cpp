@@ -125,8 +125,7 @@ constexpr const char* kPrivate = "private, no-cache";
 } // namespace
 
 HttpReply postFrame(Services& services, RouteCall call) {
-  const std::string_view body = asText(call.request.body);
-  auto spec = decodeFrameSpec(body.empty() ? "{}" : body);
+  auto spec = decodeFrameSpec(asText(call.request.body));
   return answerStored(services, call, std::move(spec), kPrivate);
 }
 
@@ -149,8 +148,7 @@ HttpReply getFrame(Services& services, RouteCall call) {
 HttpReply postPlan(Services& services, RouteCall call) {
   const std::string& id = call.values.at("id");
   if (const auto used = services.store.use(id); !used) return problemReply(used.problems(), call.request.id);
-  const std::string_view body = asText(call.request.body);
-  const auto spec = decodeFrameSpec(body.empty() ? "{}" : body);
+  const auto spec = decodeFrameSpec(asText(call.request.body));
   if (!spec) return problemReply(spec.problems(), call.request.id);
   auto bundle = services.store.bundle(id);
   if (!bundle) return problemReply(bundle.problems(), call.request.id);

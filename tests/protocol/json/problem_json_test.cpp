@@ -53,6 +53,27 @@ TEST(ProblemJson, EveryCodeHasItsOwnNameAndTitle) {
   EXPECT_EQ(problemName(ProblemCode::hashMismatch), "hashMismatch");
 }
 
+TEST(ProblemJson, CountsTheProblemsThatThereAre) {
+  const auto detailOf = [](int count) {
+    ProblemList problems;
+    for (int i = 0; i < count; ++i) problems.add(invalidValue("/a", "Wrong."));
+    return problemJson(std::move(problems).take(), 400, "")["detail"].get<std::string>();
+  };
+  EXPECT_EQ(detailOf(1), "Wrong.");
+  EXPECT_EQ(detailOf(32), "There are 32 problems, the first at \"/a\": Wrong.");
+  EXPECT_EQ(detailOf(33), "There are more than 32 problems, the first at \"/a\": Wrong.");
+  EXPECT_EQ(detailOf(5'000), "There are more than 32 problems, the first at \"/a\": Wrong.");
+}
+
+TEST(FrameSpecJson, OfNothingHasTheDefaultsAndOfBlanksIsMalformed) {
+  EXPECT_TRUE(decodeFrameSpec(""));
+  for (const char* text : {" ", "   ", "\r\n\t"}) {
+    const auto spec = decodeFrameSpec(text);
+    ASSERT_FALSE(spec);
+    EXPECT_EQ(spec.problems().front().code, ProblemCode::malformed);
+  }
+}
+
 TEST(ProblemJson, FitsItsSchema) {
   const Json schema = problemSchema();
   const Json json = problemJson({{.code = ProblemCode::busy, .detail = "Full.", .limit = "3"}}, 429, "id");
