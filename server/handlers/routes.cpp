@@ -103,12 +103,14 @@ std::variant<RouteMatch, HttpReply> findRoute(const Router& router, const HttpRe
   auto found = router.find(request.method, request.path);
   if (auto* match = std::get_if<RouteMatch>(&found)) return std::move(*match);
   if (const auto* refused = std::get_if<MethodRefused>(&found)) {
-    if (request.method == "OPTIONS") {
-      HttpReply reply;
-      reply.status = 204;
-      reply.headers.emplace_back("Allow", refused->allow);
-      return reply;
-    }
+    if (request.method == "OPTIONS") return allows(refused->allow);
+  const auto allows = [](const std::string& methods) {
+    HttpReply reply;
+    reply.status = 204;
+    reply.headers.emplace_back("Allow", methods);
+    return reply;
+  };
+  if (request.target == kWholeServer) return allows(router.allow());
     HttpReply reply = problemReply({{ProblemCode::methodNotAllowed, "", "This path does not support this method.",
                                      refused->allow, asciiExcerpt(request.method)}},
                                    request.id);

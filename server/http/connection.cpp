@@ -25,8 +25,9 @@ class Counted {
   std::atomic<std::size_t>& count_;
 };
 
-/// The request of a head, and what the record has of it; of one that is malformed, the record has an id alone.
-Result<HttpRequest> requestOf(const Result<RequestHead>& head, RequestRecord& record) {
+/// The request of a head, and what the record has of it.
+Result<HttpRequest> requestOf(const Result<RequestHead>& head, std::string_view bytes, RequestRecord& record) {
+  record.note(head ? HeadExcerpt{head->method, head->target} : excerptOf(bytes));
   auto request = head ? requestFromHead(*head) : Result<HttpRequest>(head.problems());
   if (!request) {
     record.id = requestId(head ? headerValue(head->headers, "x-request-id") : std::nullopt);
@@ -34,8 +35,6 @@ Result<HttpRequest> requestOf(const Result<RequestHead>& head, RequestRecord& re
   }
   record.id = request->id;
   record.trace = request->trace;
-  record.method = request->method;
-  record.target = head->target;
   return request;
 }
 
@@ -81,14 +80,15 @@ class Connection {
     RequestRecord record;
     PeerAddress client = connection_.peer; // until the head is read
     record.start = connection_.arrived;
-    const auto head = parseRequestHead(reader_.buffered().substr(0, headBytes));
+    const std::string_view bytes = reader_.buffered().substr(0, headBytes);
+    const auto head = parseRequestHead(bytes);
+    auto request = requestOf(head, bytes, record);
     reader_.consume(headBytes);
     if (head) {
       client = clientAddress(connection_.peer, head->headers, context_.trustedProxies);
     }
     record.client = client.text;
     record.proxy = record.client == connection_.peer.text ? "" : connection_.peer.text;
-    auto request = requestOf(head, record);
     if (!request) {
       return send(problemReply(request.problems(), record.id, {.read = RequestPart::head}), record, false, false);
     }
@@ -255,7 +255,7 @@ std::optional<UnservedReply> replyToUnserved(const HttpService& service, std::st
                                              const std::optional<Problem>& refusal) {
   UnservedReply unserved;
   RequestRecord& record = unserved.record;
-  auto request = requestOf(parseRequestHead(head), record);
+  auto request = requestOf(parseRequestHead(head), head, record);
   if (!request) {
     unserved.reply = problemReply(request.problems(), record.id, {.read = RequestPart::head});
     return unserved;

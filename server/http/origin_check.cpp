@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <arpa/inet.h>
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <netinet/in.h>
 #include <string_view>
 #include <utility>
 
 #include "protocol/base/text.h"
+#include "server/system/numbers.h"
 
 namespace gnomon {
 namespace {
@@ -20,17 +22,26 @@ constexpr const char* kAccepted =
     "Accept, Authorization, Content-Type, If-None-Match, X-Request-ID, traceparent, tracestate";
 constexpr const char* kPreflightSeconds = "600";
 
-/// The host of "host:port", without the brackets of an IPv6 address.
-std::string_view hostOf(std::string_view authority) {
-  if (authority.starts_with('[')) return authority.substr(1, std::min(authority.find(']'), authority.size()) - 1);
-  return authority.substr(0, authority.find(':'));
+bool isAddress(std::string_view host, int family) {
+  std::array<unsigned char, sizeof(in6_addr)> bytes;
+  return ::inet_pton(family, std::string(host).c_str(), bytes.data()) == 1;
 }
 
 bool isAddress(std::string_view host) {
-  std::array<unsigned char, sizeof(in6_addr)> bytes;
-  const std::string text(host);
-  return ::inet_pton(AF_INET, text.c_str(), bytes.data()) == 1 ||
-         ::inet_pton(AF_INET6, text.c_str(), bytes.data()) == 1;
+  return isAddress(host, AF_INET) || isAddress(host, AF_INET6);
+}
+
+/// The host of "host" or "host:port", without the brackets of an IPv6 address; empty where it is neither.
+std::string_view hostOf(std::string_view authority) {
+  const bool isBracketed = authority.starts_with('[');
+  const std::size_t end = std::min(authority.find(isBracketed ? ']' : ':'), authority.size());
+  const std::string_view host = authority.substr(isBracketed ? 1 : 0, isBracketed ? end - 1 : end);
+  std::string_view rest = authority.substr(std::min(end + (isBracketed ? 1 : 0), authority.size()));
+  if (isBracketed && (end == authority.size() || !isAddress(host, AF_INET6))) return {};
+  if (rest.empty()) return host;
+  if (!rest.starts_with(':')) return {};
+  rest.remove_prefix(1);
+  return rest.empty() || numberIn<std::uint16_t>(rest) ? host : std::string_view();
 }
 
 bool isWildcard(std::string_view bind) {

@@ -213,6 +213,7 @@ void PendingConnections::answer(PendingConnection& pending, Place why) {
 void PendingConnections::refuse(PendingConnection& pending, Problem problem) {
   RequestRecord record;
   record.id = requestId(std::nullopt);
+  record.note(excerptOf(pending.connection.received));
   sendLast(pending, record, problemReply({std::move(problem)}, record.id, {.read = RequestPart::head}), false);
 }
 

@@ -24,6 +24,10 @@ bool isToken(std::string_view text) {
   });
 }
 
+bool isMethod(std::string_view text) {
+  return isToken(text) && text.size() <= 16;
+}
+
 bool isFieldValue(std::string_view text) {
   return std::none_of(text.begin(), text.end(),
                       [](char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7f; });
@@ -57,14 +61,15 @@ Status readRequestLine(std::string_view line, RequestHead& head, std::string& au
   const std::string_view method = line.substr(0, first);
   const std::string_view target = line.substr(first + 1, last - first - 1);
   const std::string_view version = line.substr(last + 1);
-  if (!isToken(method) || method.size() > 16) {
+  if (!isMethod(method)) {
     return malformedHead("The method is not a token of at most 16 characters.");
   }
   if (version != "HTTP/1.1" && version != "HTTP/1.0") {
     return malformedHead("The version is neither HTTP/1.1 nor HTTP/1.0.");
   }
   const AbsoluteForm absolute = cutAbsoluteForm(target);
-  if (absolute.target.empty() || absolute.target.front() != '/' ||
+  const bool isOfServer = method == "OPTIONS" && target == kWholeServer;
+  if (absolute.target.empty() || (absolute.target.front() != '/' && !isOfServer) ||
       std::any_of(target.begin(), target.end(), [](char c) { return c <= 0x20 || c == 0x7f; })) {
     return malformedHead("The request target must begin with '/' and contain only visible ASCII characters.");
   }
@@ -147,9 +152,26 @@ std::string mediaType(std::string_view contentType) {
 }
 
 std::optional<std::size_t> headLength(std::string_view bytes) {
-  const std::size_t end = bytes.find("\r\n\r\n");
-  if (end == std::string_view::npos) return std::nullopt;
-  return end + 4;
+  constexpr std::string_view kEnd = "\r\n\r\n";
+  for (std::size_t at = bytes.find('\n'); at != std::string_view::npos; at = bytes.find('\n', at + 1)) {
+    const bool isBare = at == 0 || bytes[at - 1] != '\r';
+    if (isBare || bytes.substr(0, at + 1).ends_with(kEnd)) return at + 1;
+  }
+  return std::nullopt;
+}
+
+HeadExcerpt excerptOf(std::string_view bytes) {
+  while (bytes.starts_with('\r') || bytes.starts_with('\n')) bytes.remove_prefix(1);
+  const std::string_view line = bytes.substr(0, bytes.find_first_of("\r\n"));
+  const std::size_t space = line.find(' ');
+  const std::string_view method = line.substr(0, space);
+  if (!isMethod(method)) return {};
+  HeadExcerpt excerpt{std::string(method), ""};
+  if (space == std::string_view::npos) return excerpt;
+  excerpt.target = line.substr(space + 1, line.rfind(" HTTP/") - space - 1);
+  std::replace_if(
+      excerpt.target.begin(), excerpt.target.end(), [](char c) { return c <= 0x20 || c >= 0x7f; }, '?');
+  return excerpt;
 }
 
 Result<RequestHead> parseRequestHead(std::string_view bytes) {
@@ -159,7 +181,10 @@ Result<RequestHead> parseRequestHead(std::string_view bytes) {
   if (bytes.starts_with("\r\n")) bytes.remove_prefix(2);
   while (true) {
     const std::size_t end = bytes.find("\r\n");
-    if (end == std::string_view::npos) return malformedHead("The headers do not end with an empty line.");
+    if (end == std::string_view::npos) {
+      return malformedHead(bytes.ends_with('\n') ? "A line of the head ends with LF alone; CR LF is needed."
+                                                 : "The headers do not end with an empty line.");
+    }
     const std::string_view line = bytes.substr(0, end);
     bytes.remove_prefix(end + 2);
     if (line.empty() && !first) break;
@@ -187,7 +212,7 @@ Result<RequestHead> parseRequestHead(std::string_view bytes) {
 }
 
 Result<HttpRequest> requestFromHead(const RequestHead& head) {
-  auto url = parseTarget(head.target);
+  auto url = head.target == kWholeServer ? Result<Url>(Url{}) : parseTarget(head.target);
   if (!url) return std::move(url).problems();
   HttpRequest request;
   request.id = requestId(headerValue(head.headers, "x-request-id"));

@@ -17,6 +17,7 @@ namespace gnomon {
 
 inline constexpr std::size_t kMaxHeadBytes = 32 * 1024; ///< request line and headers, with the closing empty line
 inline constexpr std::size_t kMaxHeaders = 100;
+inline constexpr std::string_view kWholeServer = "*"; ///< the target of OPTIONS that names no path
 
 /// Headers in the order of the request; names are lower case.
 using Headers = std::vector<std::pair<std::string, std::string>>;
@@ -30,7 +31,7 @@ std::string mediaType(std::string_view contentType);
 /// The part of a request before its body (RFC 9112).
 struct RequestHead {
   std::string method;
-  std::string target; ///< origin form; an absolute form is cut to it, and its authority replaces the Host
+  std::string target; ///< origin form, or kWholeServer; an absolute form is cut, and its authority replaces the Host
   Headers headers;
   std::optional<std::uint64_t> contentLength; ///< absent = no body, or a chunked one
   bool chunked = false;
@@ -41,8 +42,16 @@ struct RequestHead {
   bool hasBody() const { return chunked || contentLength.value_or(0) > 0; }
 };
 
-/// The length of the head at the front of `bytes`, its empty line included; nothing while it is incomplete.
+/// The length of the head at the front of `bytes`, its empty line included, or up to a line that ends with LF alone, by
+/// which it is malformed; nothing while it is incomplete.
 std::optional<std::size_t> headLength(std::string_view bytes);
+
+/// The first line of a head that may be malformed or incomplete, as far as it can be read, in visible ASCII.
+struct HeadExcerpt {
+  std::string method; ///< empty = it begins with none
+  std::string target;
+};
+HeadExcerpt excerptOf(std::string_view bytes);
 
 /// Parses a head that ends with its empty line; another one may precede it. Strict where servers in a chain could
 /// disagree about the end of a body: line ends are CR LF; folded lines, repeated lengths, and a length together with
@@ -62,7 +71,7 @@ struct HttpRequest {
   std::string id;                ///< X-Request-ID: the client's where it is well formed, else a new one
   std::string method;            ///< upper case
   std::string target;            ///< as it came, without a scheme and authority
-  std::vector<std::string> path; ///< percent-decoded segments; "/" has none
+  std::vector<std::string> path; ///< percent-decoded segments; "/" and kWholeServer have none
   Query query;
   Headers headers;
   bool hasBody = false; ///< the head announces a body

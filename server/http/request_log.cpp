@@ -11,6 +11,8 @@
 #include <sys/random.h>
 #include <utility>
 
+#include "protocol/access/access_key.h"
+#include "protocol/base/text.h"
 #include "server/system/log.h"
 
 namespace gnomon {
@@ -64,10 +66,32 @@ class LineText {
   std::string text_ = "{";
 };
 
-/// The beginning of a target, without its signature: readers of the log could use it.
-std::string readableTarget(const std::string& target) {
+/// Without escapes, also those of escapes; broken ones stay.
+std::string unescaped(std::string_view text) {
+  constexpr std::size_t kEscape = 3;
+  std::string plain;
+  for (const char c : text) {
+    plain += c;
+    while (plain.size() >= kEscape && plain[plain.size() - kEscape] == '%') {
+      unsigned byte = 0;
+      const char* const end = plain.data() + plain.size();
+      if (std::from_chars(end - 2, end, byte, 16).ptr != end) break;
+      plain.replace(plain.size() - kEscape, kEscape, 1, static_cast<char>(byte));
+    }
+  }
+  return plain;
+}
+
+/// The beginning of a target, up to a part that names a signature in any spelling: readers of the log could use it.
+std::string readableTarget(std::string_view target) {
   constexpr std::size_t kMost = 512;
-  return target.substr(0, std::min(kMost, target.find("signature=")));
+  std::size_t begin = 0;
+  while (begin < target.size()) {
+    const std::size_t end = std::min(target.find_first_of("&?", begin), target.size());
+    if (lowerCase(unescaped(target.substr(begin, end - begin))).find(kSignatureKey) != std::string::npos) break;
+    begin = end + 1;
+  }
+  return std::string(target.substr(0, std::min({kMost, begin, target.size()})));
 }
 
 constexpr std::size_t kTraceDigits = 32, kSpanDigits = 16;

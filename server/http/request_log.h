@@ -21,6 +21,11 @@ struct RequestRecord {
   std::size_t replyBytes = 0; ///< of its body, as far as it was sent
   bool delivered = true;      ///< false = the client was gone before the whole reply was sent
   Clock::time_point start = Clock::now();
+
+  void note(HeadExcerpt excerpt) {
+    method = std::move(excerpt.method);
+    target = std::move(excerpt.target);
+  }
 };
 
 /// The line's text: one JSON object, no scene contents.

@@ -29,6 +29,19 @@ std::optional<PathValues> matched(const std::vector<std::string>& pattern, const
   return values;
 }
 
+void addMethods(const Route& route, std::set<std::string>& allowed) {
+  allowed.insert(route.method);
+  if (route.method == "GET") allowed.insert("HEAD");
+}
+
+/// The value of an Allow header.
+std::string allowOf(std::set<std::string> methods) {
+  methods.insert("OPTIONS");
+  std::string allow;
+  for (const std::string& name : methods) allow += allow.empty() ? name : ", " + name;
+  return allow;
+}
+
 } // namespace
 
 Router::Router(std::vector<Route> routes) : routes_(std::move(routes)) {
@@ -45,8 +58,7 @@ std::variant<RouteMatch, MethodRefused, NoSuchPath> Router::find(std::string_vie
     auto values = matched(patterns_[i], path);
     if (!values) continue;
     const Route& route = routes_[i];
-    allowed.insert(route.method);
-    if (route.method == "GET") allowed.insert("HEAD");
+    addMethods(route, allowed);
     const bool exact = route.method == method;
     const bool asHead = method == "HEAD" && route.method == "GET";
     const bool better = !best || values->size() < best->values.size() ||
@@ -55,12 +67,13 @@ std::variant<RouteMatch, MethodRefused, NoSuchPath> Router::find(std::string_vie
   }
   if (best) return *std::move(best);
   if (allowed.empty()) return NoSuchPath{};
-  allowed.insert("OPTIONS");
-  std::string allow;
-  for (const std::string& name : allowed) {
-    allow += allow.empty() ? name : ", " + name;
-  }
-  return MethodRefused{allow};
+  return MethodRefused{allowOf(std::move(allowed))};
+}
+
+std::string Router::allow() const {
+  std::set<std::string> allowed;
+  for (const Route& route : routes_) addMethods(route, allowed);
+  return allowOf(std::move(allowed));
 }
 
 } // namespace gnomon

@@ -59,6 +59,8 @@ class Router {
                                                            const std::vector<std::string>& path) const;
 
  private:
+  std::string allow() const; ///< every method that some path has, as an Allow header
+
   std::vector<Route> routes_;
   std::vector<std::vector<std::string>> patterns_; ///< segments, parallel to routes_
 };

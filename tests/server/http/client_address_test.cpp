@@ -147,7 +147,9 @@ TEST(OriginCheck, ANameThatIsNotTheServersIsMisdirected) {
   for (const char* host : {"127.0.0.1", "127.0.0.1:8080", "[::1]:8080", "localhost", "LocalHost:8080", "10.0.0.1"}) {
     EXPECT_EQ(ask(kLoopback, "GET", {{"host", host}}).status, 200) << host;
   }
-  for (const char* host : {"rebound.example", "localhost.evil.example", "127.0.0.1.evil.example:8080", "x", "[x]"}) {
+  for (const char* host :
+       {"rebound.example", "localhost.evil.example", "127.0.0.1.evil.example:8080", "x", "[x]", "[::1].evil.example",
+        "[::1]evil", "[::1", "[127.0.0.1]", "[localhost]", "localhost:evil.example"}) {
     EXPECT_EQ(ask(kLoopback, "GET", {{"host", host}}).status, 421) << host;
   }
   for (const char* host : {"render.example", "RENDER.example:8080", "other.example:81", "192.168.0.7"}) {

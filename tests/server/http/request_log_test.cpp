@@ -30,6 +30,20 @@ TEST(RequestLog, HoldsNoSignatureThatAReaderCouldUse) {
   EXPECT_EQ(told["target"], "/v1/scenes/x/frame?width=9&expires=1&key=a&");
 }
 
+TEST(RequestLog, HoldsNoSignatureThatTheClientHasSpeltOtherwise) {
+  const std::string path = "/v1/scenes/x/frame?width=9&";
+  for (const char* spelling : {"%73ignature=0123", "signature%3d0123", "SIGNATURE=0123", "si%67n%61ture=0123",
+                               "%2573ignature=0123", "%25%37%33ignature=0123", "%2%353%37%33ignature=0123"}) {
+    RequestRecord record;
+    record.target = path + spelling + "&height=9";
+    const auto line = nlohmann::json::parse(requestLine(record, {}, 1));
+    EXPECT_EQ(line["target"].get<std::string>().find("0123"), std::string::npos) << line["target"];
+  }
+  RequestRecord record;
+  record.target = path + "sun=1%2C2&camera.node=%zz&";
+  EXPECT_EQ(nlohmann::json::parse(requestLine(record, {}, 1))["target"], record.target);
+}
+
 TEST(RequestLog, KeepsTheClientsSentenceApartFromTheCause) {
   HttpReply reply;
   reply.problem = "An internal error occurred.";

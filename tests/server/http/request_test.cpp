@@ -97,6 +97,41 @@ TEST(RequestHead, RefusesTooManyHeaders) {
 TEST(RequestHead, FindsItsEnd) {
   EXPECT_EQ(headLength("GET / HTTP/1.1\r\n\r\nbody"), 18u);
   EXPECT_FALSE(headLength("GET / HTTP/1.1\r\n\r"));
+  EXPECT_FALSE(headLength("GET / HTTP/1.1\r\nHost: x\r\n"));
+  EXPECT_EQ(headLength("\r\nGET / HTTP/1.1\r\n\r\n"), 20u);
+}
+
+TEST(RequestHead, AtALineThatEndsWithLfAloneIsThereToBeRefused) {
+  for (const char* bytes : {"GET / HTTP/1.1\nHost: x\n\n", "GET / HTTP/1.1\r\nHost: x\n\r\n", "\n"}) {
+    const auto length = headLength(bytes);
+    ASSERT_TRUE(length) << bytes;
+    const auto head = parseRequestHead(std::string_view(bytes).substr(0, *length));
+    ASSERT_FALSE(head) << bytes;
+    EXPECT_EQ(head.problems().front().detail, "A line of the head ends with LF alone; CR LF is needed.");
+  }
+}
+
+TEST(RequestHead, OfOptionsAloneMayNameTheWholeServer) {
+  const auto head = parsed("OPTIONS * HTTP/1.1\r\nHost: x\r\n");
+  ASSERT_TRUE(head);
+  EXPECT_EQ(head->target, kWholeServer);
+  EXPECT_TRUE(requestFromHead(*head)->path.empty());
+  EXPECT_FALSE(parsed("GET * HTTP/1.1\r\nHost: x\r\n"));
+  EXPECT_FALSE(parsed("OPTIONS ** HTTP/1.1\r\nHost: x\r\n"));
+}
+
+TEST(HeadExcerpt, IsWhatCanBeReadOfTheFirstLine) {
+  const auto excerpt = [](std::string_view bytes) {
+    const HeadExcerpt read = excerptOf(bytes);
+    return read.method + "|" + read.target;
+  };
+  EXPECT_EQ(excerpt("\r\nGET /a?b=c HTTP/1.1\r\nno colon\r\n\r\n"), "GET|/a?b=c");
+  EXPECT_EQ(excerpt("GET /a HTTP/1.1\nHost: x\n"), "GET|/a");
+  EXPECT_EQ(excerpt("POST /a\x01\xff b HTTP/1.1\r\n"), "POST|/a???b");
+  EXPECT_EQ(excerpt("DELETE"), "DELETE|");
+  EXPECT_EQ(excerpt("GET /half"), "GET|/half");
+  EXPECT_EQ(excerpt("\x16\x03\x01 /a HTTP/1.1\r\n"), "|") << "a client that speaks TLS";
+  EXPECT_EQ(excerpt(""), "|");
 }
 
 TEST(RequestHead, SurvivesAnything) {

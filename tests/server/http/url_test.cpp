@@ -150,6 +150,10 @@ TEST(Router, NamesTheMethodsThatThereAre) {
   EXPECT_EQ(patternOf("get", {"v1", "scenes", "x", "frames"}), "allow OPTIONS, POST");
 }
 
+TEST(Router, NamesTheMethodsOfAllPaths) {
+  EXPECT_EQ(testRouter().allow(), "DELETE, GET, HEAD, OPTIONS, POST");
+}
+
 TEST(Router, KnowsNothingElse) {
   EXPECT_EQ(patternOf("GET", {"v1"}), "none");
   EXPECT_EQ(patternOf("GET", {"v1", "scenes", ""}), "GET /v1/scenes/{id}");
