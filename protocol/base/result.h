@@ -19,6 +19,7 @@ enum class ProblemCode {
   forbidden,            ///< a page of another origin, or a key, asks for what only others may
   misdirected,          ///< the server is asked under a name that is not its own
   notAcceptable,        ///< no view or format matches the Accept header
+  preconditionFailed,   ///< what If-Match names is not what there is
   lengthRequired,       ///< a body without Content-Length where one is needed
   tooLarge,             ///< a limit on bytes, pixels, triangles or nodes was passed
   unsupportedMediaType, ///< a Content-Type that the route does not take

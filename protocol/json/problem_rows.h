@@ -20,6 +20,7 @@ inline constexpr std::array kSpellings<ProblemCode>{
     spelling<ProblemCode::forbidden>("Forbidden"),
     spelling<ProblemCode::misdirected>("Misdirected Request"),
     spelling<ProblemCode::notAcceptable>("Not Acceptable"),
+    spelling<ProblemCode::preconditionFailed>("Precondition Failed"),
     spelling<ProblemCode::lengthRequired>("Length Required"),
     spelling<ProblemCode::tooLarge>("Content Too Large"),
     spelling<ProblemCode::unsupportedMediaType>("Unsupported Media Type"),

@@ -86,7 +86,8 @@ Json sceneReplies(std::initializer_list<const char*> statuses) {
 
 /// A query key for each field outside of lists, and the short forms.
 Json queryParameters() {
-  Json parameters = Json::array({reference("parameters/sceneId"), reference("parameters/ifNoneMatch")});
+  Json parameters = Json::array(
+      {reference("parameters/sceneId"), reference("parameters/ifMatch"), reference("parameters/ifNoneMatch")});
   const auto add = [&](const std::string& name, const std::string& description, Json schema) {
     Json parameter = {{"name", name}, {"in", "query"}, {"description", description}};
     schema.erase("description");
@@ -163,8 +164,9 @@ Json nodesRoute() {
 Json framesRoute() {
   Json post = operation(
       "renderFrame", "Render a frame",
-      frameReplies({"304", "400", "404", "406", "408", "411", "413", "415", "422", "429", "500", "503", "504"}));
-  post["parameters"] = Json::array({reference("parameters/sceneId"), reference("parameters/ifNoneMatch")});
+      frameReplies({"304", "400", "404", "406", "408", "411", "412", "413", "415", "422", "429", "500", "503", "504"}));
+  post["parameters"] = Json::array(
+      {reference("parameters/sceneId"), reference("parameters/ifMatch"), reference("parameters/ifNoneMatch")});
   return {{"post", withBody(std::move(post), specBody())}};
 }
 
@@ -177,7 +179,7 @@ Json planRoute() {
 
 Json frameRoute() {
   Json get = operation("getFrame", "Render a frame from a query string, for links and <img>",
-                       frameReplies({"304", "400", "404", "406", "413", "422", "429", "500", "503", "504"}));
+                       frameReplies({"304", "400", "404", "406", "412", "413", "422", "429", "500", "503", "504"}));
   get["description"] = "Keys are a field's path, as camera.node or lights[0].intensity; values are JSON or bare words.";
   get["parameters"] = queryParameters();
   return {{"get", std::move(get)}};
@@ -236,9 +238,9 @@ Json bakeRoute() {
 }
 
 Json renderRoute() {
-  Json post =
-      operation("render", "Upload a scene and render a frame of it in one go",
-                frameReplies({"304", "400", "406", "408", "411", "413", "415", "422", "429", "500", "503", "504"}));
+  Json post = operation(
+      "render", "Upload a scene and render a frame of it in one go",
+      frameReplies({"304", "400", "406", "408", "411", "412", "413", "415", "422", "429", "500", "503", "504"}));
   post["parameters"] = Json::array({reference("parameters/ifNoneMatch"), strictParameter()});
   return {{"post", withBody(std::move(post), renderBody())}};
 }

@@ -29,6 +29,7 @@ constexpr std::array kRefusals{
     Refusal{"406", "The resource has none of the media types that Accept lists."},
     Refusal{"408", "The request arrived too slowly."},
     Refusal{"411", "The request needs a body with a Content-Length."},
+    Refusal{"412", "The resource has none of the entity tags that If-Match lists."},
     Refusal{"413", "A limit on bytes, pixels, triangles or nodes is exceeded."},
     Refusal{"415", "The route does not accept this Content-Type."},
     Refusal{"421", "The server is not known by the name in Host."},
@@ -69,6 +70,7 @@ Json parameters() {
                               {{"type", "string"}, {"pattern", "^[0-9a-f]{32}$"}})},
           {"bakeKey", parameter("key", "path", "The bake's key, from its report or its progress.",
                                 {{"type", "string"}, {"pattern", "^[0-9a-f]{64}$"}})},
+          {"ifMatch", parameter("If-Match", "header", "The ETag that the picture has to have.", {{"type", "string"}})},
           {"ifNoneMatch",
            parameter("If-None-Match", "header", "The ETag of a picture that the client has.", {{"type", "string"}})}};
 }

@@ -79,9 +79,10 @@ Json jobFrameRoute() {
   Json get =
       withJob(operation("getJobFrame", "A frame of a job",
                         replies({{"200", success("Its picture; of several views multipart/mixed.", content, {"ETag"})}},
-                                {"304", "400", "404", "406", "503"})));
+                                {"304", "400", "404", "406", "412", "503"})));
   get["parameters"].push_back(parameter("index", "path", "Index of the frame.", {{"type", "integer"}, {"minimum", 0}}));
-  get["parameters"].push_back(reference("parameters/ifNoneMatch"));
+  for (const char* name : {"parameters/ifMatch", "parameters/ifNoneMatch"})
+    get["parameters"].push_back(reference(name));
   return {{"get", std::move(get)}};
 }
 

@@ -92,14 +92,20 @@ HttpReply answer(Services& services, const RouteCall& call, FrameCall frame) {
 
   HttpReply reply;
   const bool mayBeKept = request.method != "HEAD" && !tellsTimes(*form) && !frame.spec.quality;
-  const auto known = headerValue(request.headers, "if-none-match");
-  if (known && !frame.spec.quality && etagMatches(*known, etag)) {
-    reply.status = 304;
-  } else if (const auto kept = mayBeKept ? services.replies.find(etag) : nullptr) {
+  const std::string tag = frame.spec.quality ? "" : etag;
+  const Precondition condition = preconditionOf(request.headers, tag);
+  const auto kept = mayBeKept && condition != Precondition::known ? services.replies.find(etag) : nullptr;
+  if (kept) {
     reply = *kept;
-  } else {
-    reply = request.method == "HEAD" ? check(services, call, frame, *form) : draw(services, call, frame, *form, etag);
+  } else if (condition != Precondition::known) { // a client that names the tag has the picture
+    const bool isSent = condition == Precondition::holds && request.method != "HEAD";
+    reply = isSent ? draw(services, call, frame, *form, etag) : check(services, call, frame, *form);
     if (reply.status != 200) return reply;
+  }
+  if (condition == Precondition::failed) return problemReply({preconditionFailed(request.headers, tag)}, request.id);
+  if (condition != Precondition::holds) {
+    reply = HttpReply();
+    reply.status = 304;
   }
   if (mayBeKept && !frame.request.empty()) services.replies.remember(frame.request, etag);
   // Which settings meet a target depends on how fast the machine was.
@@ -135,8 +141,8 @@ HttpReply getFrame(Services& services, RouteCall call) {
   if (request.method == "GET") {
     const auto accept = headerValue(request.headers, "accept");
     name = request.target + '\n' + std::string(accept.value_or("")) + '\n' + services.workers.info().fingerprint;
-    const bool isPlain =
-        !headerValue(request.headers, "if-none-match") && static_cast<bool>(services.store.use(call.values.at("id")));
+    const bool isPlain = !headerValue(request.headers, "if-none-match") && !headerValue(request.headers, "if-match") &&
+                         static_cast<bool>(services.store.use(call.values.at("id")));
     if (auto kept = isPlain ? services.replies.findRequest(name) : std::nullopt) {
       return labelled(*kept->reply, kept->etag, kShared);
     }

@@ -151,9 +151,12 @@ HttpReply getJobFrame(Services& services, RouteCall call) {
   const auto accept = headerValue(call.request.headers, "accept");
   if (!preferred(accept, offers)) return problemReply({notAcceptable("The frame", accept, offers)}, call.request.id);
   const std::string etag = '"' + (*note)->contentKey + '"';
-  const auto known = headerValue(call.request.headers, "if-none-match");
+  const Precondition condition = preconditionOf(call.request.headers, etag);
+  if (condition == Precondition::failed) {
+    return problemReply({preconditionFailed(call.request.headers, etag)}, call.request.id);
+  }
   HttpReply reply;
-  if (known && etagMatches(*known, etag)) {
+  if (condition != Precondition::holds) {
     reply.status = 304;
   } else {
     auto frame = services.jobs.frame(job->id, *index);

@@ -78,18 +78,27 @@ Route probeRoute(Services& services, const char* path, HttpReply (*handler)(Serv
   return route;
 }
 
+/// A route whose handler checks the request's preconditions.
+Route tagged(Route route) {
+  route.hasTag = true;
+  return route;
+}
+
 /// A handler for one file of the web page.
 std::function<HttpReply(RouteCall)> pageHandler(const StaticFile& file) {
   Sha256 hash;
   hash.add(file.bytes);
   return [file, etag = '"' + hash.hex() + '"'](const RouteCall& call) {
+    const Precondition condition = preconditionOf(call.request.headers, etag);
+    if (condition == Precondition::failed) {
+      return problemReply({preconditionFailed(call.request.headers, etag)}, call.request.id);
+    }
     HttpReply reply;
     reply.headers = {{"ETag", etag},
                      {"Cache-Control", "no-cache"},
                      {"Content-Security-Policy", std::string(kPagePolicy)},
                      {"Referrer-Policy", "no-referrer"}};
-    const auto known = headerValue(call.request.headers, "if-none-match");
-    if (known && etagMatches(*known, etag)) {
+    if (condition != Precondition::holds) {
       reply.status = 304;
       return reply;
     }
@@ -100,10 +109,6 @@ std::function<HttpReply(RouteCall)> pageHandler(const StaticFile& file) {
 }
 
 std::variant<RouteMatch, HttpReply> findRoute(const Router& router, const HttpRequest& request) {
-  auto found = router.find(request.method, request.path);
-  if (auto* match = std::get_if<RouteMatch>(&found)) return std::move(*match);
-  if (const auto* refused = std::get_if<MethodRefused>(&found)) {
-    if (request.method == "OPTIONS") return allows(refused->allow);
   const auto allows = [](const std::string& methods) {
     HttpReply reply;
     reply.status = 204;
@@ -111,6 +116,10 @@ std::variant<RouteMatch, HttpReply> findRoute(const Router& router, const HttpRe
     return reply;
   };
   if (request.target == kWholeServer) return allows(router.allow());
+  auto found = router.find(request.method, request.path);
+  if (auto* match = std::get_if<RouteMatch>(&found)) return std::move(*match);
+  if (const auto* refused = std::get_if<MethodRefused>(&found)) {
+    if (request.method == "OPTIONS") return allows(refused->allow);
     HttpReply reply = problemReply({{ProblemCode::methodNotAllowed, "", "This path does not support this method.",
                                      refused->allow, asciiExcerpt(request.method)}},
                                    request.id);
@@ -159,8 +168,8 @@ std::vector<Route> makeRoutes(Services& services, Addresses addresses) {
       {"GET", "/v1/scenes/{id}", Scope::read, none, {}, bind(getScene)},
       {"DELETE", "/v1/scenes/{id}", Scope::upload, none, {}, bind(deleteScene)},
       {"GET", "/v1/scenes/{id}/nodes", Scope::read, none, {}, bind(getNodes), {"limit", "after"}},
-      {"POST", "/v1/scenes/{id}/frames", Scope::render, json, {"application/json"}, bind(postFrame)},
-      {"GET", "/v1/scenes/{id}/frame", Scope::render, none, {}, bind(getFrame), QueryKeys::any(), false, true},
+      tagged({"POST", "/v1/scenes/{id}/frames", Scope::render, json, {"application/json"}, bind(postFrame)}),
+      tagged({"GET", "/v1/scenes/{id}/frame", Scope::render, none, {}, bind(getFrame), QueryKeys::any(), false, true}),
       {"POST", "/v1/scenes/{id}/plan", Scope::render, json, {"application/json"}, bind(postPlan)},
       {"POST", "/v1/scenes/{id}/evaluations", Scope::render, json, {"application/json"}, bind(postEvaluation)},
       {"POST", "/v1/scenes/{id}/sequences", Scope::render, json, {"application/json"}, bind(postSequence)},
@@ -168,17 +177,17 @@ std::vector<Route> makeRoutes(Services& services, Addresses addresses) {
       {"GET", "/v1/jobs/{id}", Scope::render, none, {}, bind(getJob), {"wait"}},
       {"DELETE", "/v1/jobs/{id}", Scope::render, none, {}, bind(deleteJob)},
       {"GET", "/v1/jobs/{id}/result", Scope::render, none, {}, bind(getJobResult)},
-      {"GET", "/v1/jobs/{id}/frames/{index}", Scope::render, none, {}, bind(getJobFrame)},
+      tagged({"GET", "/v1/jobs/{id}/frames/{index}", Scope::render, none, {}, bind(getJobFrame)}),
       {"POST", "/v1/scenes/{id}/bakes", Scope::render, json, {"application/json"}, bind(postBake)},
       {"GET", "/v1/scenes/{id}/bakes/{key}", Scope::render, none, {}, bind(getBake), {"light"}},
       {"DELETE", "/v1/scenes/{id}/bakes/{key}", Scope::render, none, {}, bind(deleteBake)},
-      {"POST",
-       "/v1/render",
-       Scope::upload | Scope::render,
-       oneShot,
-       {"multipart/form-data"},
-       bind(renderOnce),
-       {"strict"}},
+      tagged({"POST",
+              "/v1/render",
+              Scope::upload | Scope::render,
+              oneShot,
+              {"multipart/form-data"},
+              bind(renderOnce),
+              {"strict"}}),
       {"POST", "/render", Scope::upload | Scope::render, oneShot, {"multipart/form-data"}, bind(renderDrake)},
       plainRoute(services, "/v1/capabilities", Scope::read, getCapabilities),
       plainRoute(services, "/openapi.json", Scope::none, getOpenApi),
@@ -196,7 +205,8 @@ std::vector<Route> makeRoutes(Services& services, Addresses addresses) {
                       QueryKeys::any(),
                       false,
                       false,
-                      "page"});
+                      "page",
+                      true});
   }
   return routes;
 }
@@ -229,6 +239,9 @@ HttpService makeService(std::vector<Route> routes) {
                           route.probe,
                           [router, &route, values = std::move(match.values)](HttpRequest request,
                                                                              const std::function<bool()>& clientGone) {
+                            if (!route.hasTag && preconditionOf(request.headers, "") == Precondition::failed) {
+                              return problemReply({preconditionFailed(request.headers, "")}, request.id);
+                            }
                             return route.handler({std::move(request), values, clientGone});
                           }};
   };

@@ -128,12 +128,35 @@ std::optional<FrameForm> negotiate(std::optional<std::string_view> accept, Image
   return best ? std::optional(forms[*best]) : std::nullopt;
 }
 
-bool etagMatches(std::string_view ifNoneMatch, std::string_view etag) {
-  if (trimmed(ifNoneMatch) == "*") return true;
-  for (const std::string& listed : splitTrimmed(ifNoneMatch, ',')) { // our tags hold no comma
-    if (withoutWeakness(listed) == withoutWeakness(etag)) return true;
-  }
-  return false;
+namespace {
+
+constexpr std::string_view kAnyTag = "*";
+
+/// Whether a list names the tag; our tags hold no comma.
+bool lists(std::string_view list, std::string_view etag, bool isStrong) {
+  if (etag.empty() || (isStrong && etag != withoutWeakness(etag))) return false;
+  const std::vector<std::string> tags = splitTrimmed(list, ',');
+  return std::any_of(tags.begin(), tags.end(), [&](const std::string& tag) {
+    return isStrong ? tag == etag : withoutWeakness(tag) == withoutWeakness(etag);
+  });
+}
+
+} // namespace
+
+Precondition preconditionOf(const Headers& headers, std::string_view etag) {
+  const auto match = headerValue(headers, "if-match");
+  if (match && trimmed(*match) != kAnyTag && !lists(*match, etag, true)) return Precondition::failed;
+  const auto none = headerValue(headers, "if-none-match");
+  if (!none) return Precondition::holds;
+  if (trimmed(*none) == kAnyTag) return Precondition::exists;
+  return lists(*none, etag, false) ? Precondition::known : Precondition::holds;
+}
+
+Problem preconditionFailed(const Headers& headers, std::string_view etag) {
+  return {ProblemCode::preconditionFailed, "If-Match",
+          etag.empty() ? "This has no entity tag, so that If-Match can name none."
+                       : "The entity tag is none of those that If-Match lists.",
+          std::string(etag), asciiExcerpt(headerValue(headers, "if-match").value_or(""))};
 }
 
 } // namespace gnomon

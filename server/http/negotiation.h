@@ -7,6 +7,7 @@
 
 #include "protocol/base/result.h"
 #include "protocol/spec/traits.h"
+#include "server/http/request.h"
 #include "server/wire/frame_form.h"
 
 namespace gnomon {
@@ -33,7 +34,18 @@ inline constexpr auto kFrameTypes = [] {
 /// takes that but prefers PNG, JPEG or WebP: browsers list these for every picture. Nothing: no form is acceptable.
 std::optional<FrameForm> negotiate(std::optional<std::string_view> accept, ImageFormat specFormat);
 
-/// Whether an If-None-Match names this tag (RFC 9110 section 13.1.2: lists, "*", weak comparison).
-bool etagMatches(std::string_view ifNoneMatch, std::string_view etag);
+/// What a request's preconditions say of a representation that there is (RFC 9110 section 13).
+enum class Precondition {
+  holds,
+  known,  ///< If-None-Match names its tag: 304
+  exists, ///< If-None-Match is "*": 304 as well
+  failed  ///< If-Match names others: 412
+};
+
+/// If-Match first, by strong comparison, then If-None-Match, by weak comparison. `etag`: empty = it has none.
+Precondition preconditionOf(const Headers& headers, std::string_view etag);
+
+/// The refusal where that failed.
+Problem preconditionFailed(const Headers& headers, std::string_view etag);
 
 } // namespace gnomon

@@ -19,7 +19,7 @@ namespace {
 constexpr const char* kExposed =
     "ETag, Gnomon-Warnings, Location, Retry-After, Server-Timing, X-Request-ID, traceresponse";
 constexpr const char* kAccepted =
-    "Accept, Authorization, Content-Type, If-None-Match, X-Request-ID, traceparent, tracestate";
+    "Accept, Authorization, Content-Type, If-Match, If-None-Match, X-Request-ID, traceparent, tracestate";
 constexpr const char* kPreflightSeconds = "600";
 
 bool isAddress(std::string_view host, int family) {

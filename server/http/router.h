@@ -36,6 +36,7 @@ struct Route {
   bool probe = false;          ///< answered however busy everything else is
   bool takesSignature = false; ///< a signed address does instead of a key
   std::string name{};          ///< for metrics; empty = its pattern
+  bool hasTag = false;         ///< its replies have entity tags, and its handler checks the preconditions
 };
 
 /// The route of a request.
@@ -58,9 +59,9 @@ class Router {
   std::variant<RouteMatch, MethodRefused, NoSuchPath> find(std::string_view method,
                                                            const std::vector<std::string>& path) const;
 
- private:
   std::string allow() const; ///< every method that some path has, as an Allow header
 
+ private:
   std::vector<Route> routes_;
   std::vector<std::vector<std::string>> patterns_; ///< segments, parallel to routes_
 };

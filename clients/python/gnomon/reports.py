@@ -979,11 +979,12 @@ class ProblemEntry(TypedDict, total=False):
     code:
         Kind of problem. malformed = Malformed Request; invalidValue = Invalid Value; notFound = Not Found;
         methodNotAllowed = Method Not Allowed; unauthorized = Unauthorized; forbidden = Forbidden; misdirected =
-        Misdirected Request; notAcceptable = Not Acceptable; lengthRequired = Length Required; tooLarge = Content
-        Too Large; unsupportedMediaType = Unsupported Media Type; invalidScene = Invalid Scene; unsupportedFeature =
-        Unsupported Feature; hashMismatch = Hash Mismatch; busy = Too Many Requests; deadlineExceeded = Deadline
-        Exceeded; unavailable = Service Unavailable; insufficientStorage = Insufficient Storage; backend = Graphics
-        Backend Failure; internal = Internal Server Error. Default: "internal".
+        Misdirected Request; notAcceptable = Not Acceptable; preconditionFailed = Precondition Failed;
+        lengthRequired = Length Required; tooLarge = Content Too Large; unsupportedMediaType = Unsupported Media
+        Type; invalidScene = Invalid Scene; unsupportedFeature = Unsupported Feature; hashMismatch = Hash Mismatch;
+        busy = Too Many Requests; deadlineExceeded = Deadline Exceeded; unavailable = Service Unavailable;
+        insufficientStorage = Insufficient Storage; backend = Graphics Backend Failure; internal = Internal Server
+        Error. Default: "internal".
     pointer:
         Where: a JSON pointer, a query key or the name of a part.
     detail:
@@ -994,7 +995,7 @@ class ProblemEntry(TypedDict, total=False):
         What was sent, shortened.
     """
 
-    code: Literal["malformed", "invalidValue", "notFound", "methodNotAllowed", "unauthorized", "forbidden", "misdirected", "notAcceptable", "lengthRequired", "tooLarge", "unsupportedMediaType", "invalidScene", "unsupportedFeature", "hashMismatch", "busy", "deadlineExceeded", "unavailable", "insufficientStorage", "backend", "internal"]
+    code: Literal["malformed", "invalidValue", "notFound", "methodNotAllowed", "unauthorized", "forbidden", "misdirected", "notAcceptable", "preconditionFailed", "lengthRequired", "tooLarge", "unsupportedMediaType", "invalidScene", "unsupportedFeature", "hashMismatch", "busy", "deadlineExceeded", "unavailable", "insufficientStorage", "backend", "internal"]
     pointer: str
     detail: str
     limit: str

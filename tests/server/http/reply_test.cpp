@@ -11,17 +11,27 @@ namespace gnomon {
 namespace {
 
 TEST(ProblemReply, EveryKindHasItsStatus) {
-  const std::map<ProblemCode, int> expected{
-      {ProblemCode::malformed, 400},        {ProblemCode::invalidValue, 400},
-      {ProblemCode::notFound, 404},         {ProblemCode::methodNotAllowed, 405},
-      {ProblemCode::unauthorized, 401},     {ProblemCode::forbidden, 403},
-      {ProblemCode::misdirected, 421},      {ProblemCode::insufficientStorage, 507},
-      {ProblemCode::notAcceptable, 406},    {ProblemCode::lengthRequired, 411},
-      {ProblemCode::tooLarge, 413},         {ProblemCode::unsupportedMediaType, 415},
-      {ProblemCode::invalidScene, 422},     {ProblemCode::unsupportedFeature, 422},
-      {ProblemCode::hashMismatch, 422},     {ProblemCode::busy, 429},
-      {ProblemCode::deadlineExceeded, 504}, {ProblemCode::unavailable, 503},
-      {ProblemCode::backend, 500},          {ProblemCode::internal, 500}};
+  const std::map<ProblemCode, int> expected{{ProblemCode::malformed, 400},
+                                            {ProblemCode::invalidValue, 400},
+                                            {ProblemCode::notFound, 404},
+                                            {ProblemCode::methodNotAllowed, 405},
+                                            {ProblemCode::unauthorized, 401},
+                                            {ProblemCode::forbidden, 403},
+                                            {ProblemCode::misdirected, 421},
+                                            {ProblemCode::insufficientStorage, 507},
+                                            {ProblemCode::notAcceptable, 406},
+                                            {ProblemCode::lengthRequired, 411},
+                                            {ProblemCode::tooLarge, 413},
+                                            {ProblemCode::unsupportedMediaType, 415},
+                                            {ProblemCode::invalidScene, 422},
+                                            {ProblemCode::unsupportedFeature, 422},
+                                            {ProblemCode::hashMismatch, 422},
+                                            {ProblemCode::busy, 429},
+                                            {ProblemCode::deadlineExceeded, 504},
+                                            {ProblemCode::unavailable, 503},
+                                            {ProblemCode::preconditionFailed, 412},
+                                            {ProblemCode::backend, 500},
+                                            {ProblemCode::internal, 500}};
   for (const auto& [code, status] : expected) {
     EXPECT_EQ(statusOf(code), status);
   }
@@ -173,14 +183,36 @@ TEST(Negotiation, GivesUpWhereNothingFits) {
   }
 }
 
-TEST(Etag, MatchesListsWeaklyAndStars) {
-  EXPECT_TRUE(etagMatches("\"a\"", "\"a\""));
-  EXPECT_TRUE(etagMatches("\"x\", W/\"a\" ,\"y\"", "\"a\""));
-  EXPECT_TRUE(etagMatches("\"a\"", "W/\"a\""));
-  EXPECT_TRUE(etagMatches(" * ", "\"a\""));
-  EXPECT_FALSE(etagMatches("", "\"a\""));
-  EXPECT_FALSE(etagMatches("a", "\"a\""));
-  EXPECT_FALSE(etagMatches("\"b\", \"c\"", "\"a\""));
+Precondition unlessKnown(const std::string& ifNoneMatch, std::string_view etag) {
+  return preconditionOf({{"if-none-match", ifNoneMatch}}, etag);
+}
+
+Precondition only(const std::string& ifMatch, std::string_view etag) {
+  return preconditionOf({{"if-match", ifMatch}}, etag);
+}
+
+TEST(Preconditions, IfNoneMatchListsTagsAndComparesWeakly) {
+  for (const char* list : {"\"a\"", "\"x\", W/\"a\" ,\"y\""}) {
+    EXPECT_EQ(unlessKnown(list, "\"a\""), Precondition::known) << list;
+    EXPECT_EQ(unlessKnown(list, "W/\"a\""), Precondition::known) << list;
+  }
+  for (const char* list : {"", "a", "\"b\", \"c\""}) {
+    EXPECT_EQ(unlessKnown(list, "\"a\""), Precondition::holds) << list;
+  }
+  EXPECT_EQ(unlessKnown(" * ", "\"a\""), Precondition::exists);
+  EXPECT_EQ(unlessKnown("", ""), Precondition::holds);
+}
+
+TEST(Preconditions, IfMatchComparesStronglyAndComesFirst) {
+  EXPECT_EQ(only("\"x\", \"a\"", "\"a\""), Precondition::holds);
+  EXPECT_EQ(only("*", "\"a\""), Precondition::holds);
+  EXPECT_EQ(only("*", ""), Precondition::holds);
+  EXPECT_EQ(only("\"x\"", "\"a\""), Precondition::failed);
+  EXPECT_EQ(only("", ""), Precondition::failed);
+  EXPECT_EQ(only("W/\"a\"", "W/\"a\""), Precondition::failed) << "weak tags are equal to none";
+  EXPECT_EQ(preconditionOf({{"if-none-match", "*"}, {"if-match", "\"x\""}}, "\"a\""), Precondition::failed);
+  EXPECT_EQ(preconditionOf({{"if-none-match", "\"a\""}, {"if-match", "\"a\""}}, "\"a\""), Precondition::known);
+  EXPECT_EQ(preconditionOf({}, "\"a\""), Precondition::holds);
 }
 
 } // namespace
