@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "protocol/access/access_key.h"
 #include "protocol/base/text.h"
+#include "server/system/numbers.h"
 
 namespace gnomon {
 namespace {
@@ -61,11 +64,24 @@ void holdWhileSent(HttpReply& reply, std::shared_ptr<void> place) {
   reply.stream = [stream = std::move(reply.stream), place = std::move(place)](const BodySink& sink) { stream(sink); };
 }
 
-/// What was made for one client must not be handed to others.
-void keepPrivate(HttpReply& reply) {
-  constexpr std::string_view kPublic = "public";
+std::int64_t secondsSince1970() {
+  return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()).time_since_epoch().count();
+}
+
+/// What was made for one client must not be handed to others, and is kept no longer than its address is valid.
+/// `expires`: seconds since 1970; nothing = the address needs none.
+void keepPrivate(HttpReply& reply, std::optional<std::int64_t> expires) {
+  constexpr std::string_view kPublic = "public", kAge = "max-age=";
   for (auto& [name, value] : reply.headers) {
-    if (name == "Cache-Control" && value.starts_with(kPublic)) value.replace(0, kPublic.size(), "private");
+    if (name != "Cache-Control") continue;
+    if (value.starts_with(kPublic)) value.replace(0, kPublic.size(), "private");
+    const std::size_t age = value.find(kAge);
+    if (!expires || age == std::string::npos) continue;
+    const std::size_t begin = age + kAge.size();
+    const std::size_t end = std::min(value.find_first_not_of("0123456789", begin), value.size());
+    const auto allowed = numberIn<std::int64_t>(std::string_view(value).substr(begin, end - begin));
+    const std::int64_t left = std::max<std::int64_t>(*expires - secondsSince1970(), 0);
+    value.replace(begin, end - begin, std::to_string(std::min(allowed.value_or(0), left)));
   }
 }
 
@@ -79,17 +95,19 @@ class AccessCheck {
     auto* handler = std::get_if<RequestHandler>(&found);
     if (handler == nullptr || handler->scope == Scope::none) return found;
     const bool isSigned = handler->takesSignature && hasSignature(request);
+    const auto target = isSigned ? readSignedTarget(request.target) : std::nullopt;
+    const auto expires = target ? std::optional(target->expires) : std::nullopt;
     const auto refuse = [&](HttpReply reply) {
       reply.route = handler->route;
       return reply;
     };
-    auto known = isSigned ? keyOfSignature(request) : keyOfHeader(request);
+    auto known = isSigned ? keyOfSignature(request, target) : keyOfHeader(request);
     if (auto* refused = std::get_if<HttpReply>(&known)) return refuse(std::move(*refused));
     auto& key = std::get<AccessKey>(known);
     if (!allows(key.scope, handler->scope)) return refuse(outOfScope(key, handler->scope, request));
     // Before its body is read; when it is there, another request may have been quicker.
     if (const int seconds = usage_->wait(key); seconds > 0) return refuse(tooOften(key, seconds, request));
-    handler->answer = [usage = usage_, answer = std::move(handler->answer), key, isSigned](
+    handler->answer = [usage = usage_, answer = std::move(handler->answer), key, isSigned, expires](
                           HttpRequest asked, const std::function<bool()>& clientGone) {
       Admission admission = usage->admit(key);
       if (!admission.place) return tooOften(key, admission.retryAfterSeconds, asked);
@@ -98,7 +116,7 @@ class AccessCheck {
       asked.key = key.name;
       HttpReply reply = answer(std::move(asked), clientGone);
       reply.key = key.name;
-      keepPrivate(reply);
+      keepPrivate(reply, expires);
       holdWhileSent(reply, std::move(admission.place));
       return reply;
     };
@@ -119,15 +137,15 @@ class AccessCheck {
     return *std::move(key);
   }
 
-  std::variant<AccessKey, HttpReply> keyOfSignature(const HttpRequest& request) const {
-    const auto target = readSignedTarget(request.target);
+  std::variant<AccessKey, HttpReply> keyOfSignature(const HttpRequest& request,
+                                                    const std::optional<SignedTarget>& target) const {
     auto key = target ? keys_->named(target->key) : std::nullopt;
     if (!key || std::none_of(key->signingSecrets.begin(), key->signingSecrets.end(),
                              [&](const std::string& secret) { return isSignedBy(*target, secret); })) {
       return notSigned(kSignatureKey, "No key has signed this address as it is.", request);
     }
-    const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()).time_since_epoch();
-    if (now.count() >= target->expires) return notSigned(kExpiresKey, "The time of this address is over.", request);
+    if (secondsSince1970() >= target->expires)
+      return notSigned(kExpiresKey, "The time of this address is over.", request);
     return *std::move(key);
   }
 

@@ -146,6 +146,7 @@ HttpService signedService() {
       std::string names;
       for (const auto& [name, value] : request.query) names += name + " ";
       reply.body = names;
+      reply.headers.emplace_back("Cache-Control", "public, max-age=86400, immutable");
       return reply;
     };
     return handler;
@@ -168,6 +169,27 @@ TEST(SignedAddress, IsAnsweredAsItWouldBeWithoutItsSignature) {
     EXPECT_EQ(reply.body, "width ");
     EXPECT_EQ(reply.key, "shop");
   }
+}
+
+std::string cacheControl(const HttpReply& reply) {
+  for (const auto& [name, value] : reply.headers) {
+    if (name == "Cache-Control") return value;
+  }
+  return "";
+}
+
+TEST(SignedAddress, IsKeptByCachesNoLongerThanItIsValid) {
+  const auto sign = [](std::int64_t expires) {
+    return signedTarget(kFrame, expires, "shop", "the new signing secret");
+  };
+  EXPECT_EQ(cacheControl(follow(sign(kFarAway))), "private, max-age=86400, immutable");
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const std::int64_t soon = std::chrono::floor<std::chrono::seconds>(now).count() + 60;
+  const std::string kept = cacheControl(follow(sign(soon)));
+  const int seconds = std::stoi(kept.substr(kept.find('=') + 1));
+  EXPECT_LE(seconds, 60);
+  EXPECT_GE(seconds, 30);
+  EXPECT_EQ(kept, "private, max-age=" + std::to_string(seconds) + ", immutable");
 }
 
 TEST(SignedAddress, IsRefusedWhereNobodySignedItOrItsTimeIsOver) {
