@@ -279,6 +279,15 @@ class Protocol(ServerTest):
         cut = self.raw("GET http://localhost?y=/v1/capabilities HTTP/1.1\r\n" + close)
         self.assertNotIn(b"fingerprint", cut)
 
+    def test_a_line_that_ends_with_lf_alone_is_refused_at_once_and_logged(self):
+        start = time.monotonic()
+        reply = self.raw("GET /livez?a=bare HTTP/1.1\nHost: localhost\n\n")
+        self.assertLess(time.monotonic() - start, 4)
+        self.assertTrue(reply.startswith(b"HTTP/1.1 400 "), reply)
+        self.server.settled_log()
+        line = next(line for line in self.server.log_lines() if line.get("target") == "/livez?a=bare")
+        self.assertEqual((line["method"], line["status"]), ("GET", 400))
+
     def test_an_old_client_gets_no_interim_reply(self):
         lines = "POST /v1/scenes HTTP/1.0\r\nContent-Type: model/gltf-binary\r\nExpect: 100-continue\r\n"
         self.assertTrue(self.raw(lines + "Content-Length: 4\r\n\r\nglTF").startswith(b"HTTP/1.1 400 "))
@@ -290,6 +299,30 @@ class Protocol(ServerTest):
         reply = self.server.ask("OPTIONS", "/v1/scenes", headers={"Origin": "https://page.example"})
         self.assertEqual(reply.headers["Access-Control-Allow-Origin"], "https://page.example")
         self.assertEqual(reply.headers["Access-Control-Allow-Methods"], "GET, HEAD, OPTIONS, POST")
+
+    def test_options_of_no_path_names_all_methods(self):
+        reply = self.raw("OPTIONS * HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n")
+        self.assertTrue(reply.startswith(b"HTTP/1.1 204 "), reply)
+        self.assertIn(b"Allow: DELETE, GET, HEAD, OPTIONS, POST, PUT\r\n", reply)
+
+    def test_preconditions_are_those_of_a_frame_that_can_be_drawn(self):
+        scene = self.server.upload("box_on_plane")
+        tag = self.server.frame(scene, SMALL).headers["ETag"]
+        undrawable = SMALL | {"camera": {"node": "nobody"}}
+        for headers, spec, status in (
+            ({"If_Match": tag}, SMALL, 200),
+            ({"If_Match": "*"}, SMALL, 200),
+            ({"If_Match": '"x"'}, SMALL, 412),
+            ({"If_Match": '"x"'}, SMALL | {"exposure": 0.25}, 412),
+            ({"If_Match": '"x"'}, undrawable, 400),
+            ({"If_None_Match": "*"}, SMALL | {"exposure": 0.75}, 304),
+            ({"If_None_Match": "*"}, undrawable, 400),
+            ({"If_None_Match": '"x"'}, SMALL, 200),
+        ):
+            self.assertEqual(self.server.frame(scene, spec, **headers).status, status, (headers, spec))
+        address = f"/v1/scenes/{scene}"
+        self.assertEqual(self.server.ask("DELETE", address, headers={"If-Match": '"x"'}).status, 412)
+        self.assertEqual(self.server.ask("DELETE", address, headers={"If-Match": "*"}).status, 204)
 
     def test_a_post_with_a_known_tag_draws_nothing(self):
         scene = self.server.upload("box_on_plane")
