@@ -27,6 +27,7 @@ RedisBackend::RedisBackend(std::shared_ptr<redis::Redis> redis, Options options)
       options_(options),
       channel_("gnomon:removed:" + std::to_string(redis_->address().database)), // channels know no databases
       memory_(options.memoryBytes, options.memoryScenes),
+      delay_(options.age),
       removals_(*redis_, channel_,
                 {[this] { checkMemory(); },
                  [this](const std::string& id) {
@@ -231,6 +232,12 @@ void RedisBackend::keepClean(const SceneListener& removed) {
   markUsed();
   if (options_.age.count() == 0) return;
   const std::string age = std::to_string(std::chrono::milliseconds(options_.age).count());
+  const auto counts = answered(redis_->run(redis_scripts::kCountUnused, {}, {age}, storeCall()));
+  if (!counts || counts->elements.size() != 2) return;
+  const auto countAt = [&](std::size_t i) {
+    return static_cast<std::size_t>(std::max<std::int64_t>(counts->elements[i].integer, 0));
+  };
+  if (!delay_.mayGo(countAt(0), countAt(1), Clock::now())) return;
   const auto reply = answered(redis_->run(redis_scripts::kRemoveUnused, {}, {age, channel_, "100"}, storeCall()));
   if (!reply) return;
   for (const redis::Reply& id : reply->elements) {

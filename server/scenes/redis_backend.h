@@ -9,6 +9,7 @@
 #include "server/redis/redis.h"
 #include "server/redis/subscription.h"
 #include "server/scenes/redis_parts.h"
+#include "server/scenes/removal_delay.h"
 #include "server/scenes/scene_backend.h"
 #include "server/scenes/scene_memory.h"
 
@@ -60,6 +61,7 @@ class RedisBackend : public SceneBackend {
   StoreSize size_;             ///< as last known
   std::atomic<std::uint64_t> hits_ = 0;
   std::atomic<std::uint64_t> misses_ = 0;
+  RemovalDelay delay_;
   std::mutex telling_;
   SceneListener listener_;
   redis::Subscription removals_; ///< the last member: its thread uses the others

@@ -101,6 +101,11 @@ return missing
 
 const redis::Script kRemove = with("return removeScene(ARGV[1], ARGV[2])");
 
+const redis::Script kCountUnused = with(R"lua(
+local last = string.format('%.0f', now() - tonumber(ARGV[1]))
+return {redis.call('ZCOUNT', 'gnomon:used', '-inf', '(' .. last), redis.call('ZCARD', 'gnomon:used')}
+)lua");
+
 const redis::Script kRemoveUnused = with(R"lua(
 local last = string.format('%.0f', now() - tonumber(ARGV[1]))
 local ids = redis.call('ZRANGEBYSCORE', 'gnomon:used', '-inf', '(' .. last, 'LIMIT', 0, ARGV[3])

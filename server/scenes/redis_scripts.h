@@ -59,6 +59,9 @@ extern const redis::Script kUse;
 /// ARGV: id, channel. 1, or 0 where it was not there.
 extern const redis::Script kRemove;
 
+/// ARGV: milliseconds. How many scenes were not used for so long, and how many there are.
+extern const redis::Script kCountUnused;
+
 /// ARGV: milliseconds, channel, the most ids. Removes scenes that were not used for so long. Their ids.
 extern const redis::Script kRemoveUnused;
 

@@ -19,9 +19,7 @@ bool RemovalDelay::mayGo(std::size_t old, std::size_t all, Clock::time_point now
                           " s (--store-age), or the clock was set forward. They are removed a tenth of that later.");
     return false;
   }
-  if (now < *until_) return false;
-  until_.reset();
-  return true;
+  return now >= *until_;
 }
 
 } // namespace gnomon

@@ -21,7 +21,7 @@ class RemovalDelay {
 
  private:
   const std::chrono::seconds age_;
-  std::optional<Clock::time_point> until_; ///< of those that wait
+  std::optional<Clock::time_point> until_; ///< since more than a tenth is old; nothing = it is less
 };
 
 } // namespace gnomon

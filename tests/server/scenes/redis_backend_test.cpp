@@ -196,6 +196,19 @@ TEST_F(RedisBackendTest, WhatNobodyUsesGoesEverywhere) {
   EXPECT_EQ(scenes->size().bytes, 100u);
 }
 
+TEST_F(RedisBackendTest, ScenesThatAreOldAllAtOnceStayForATenthOfTheirAgeMore) {
+  const auto scenes = open({.age = 4s});
+  std::vector<std::string> removed;
+  const auto pass = [&] { scenes->keepClean([&](const std::string& id) { removed.push_back(id); }); };
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(put(*scenes, bundleOf(i)));
+  for (int i = 0; i < 3; ++i) ask({"ZADD", "gnomon:used", "1", bundleOf(i).id}); // as when Redis' clock is set forward
+  pass();
+  EXPECT_TRUE(removed.empty());
+  std::this_thread::sleep_for(400ms);
+  pass();
+  EXPECT_EQ(removed.size(), 3u);
+}
+
 TEST_F(RedisBackendTest, ASceneThatIsInNoMemoryIsReadOnceByMany) {
   const PackedBundle bundle = bundleOf(1, 6'000'000);
   ASSERT_TRUE(put(*open(), bundle));
