@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <sys/prctl.h>
 #include <utility>
 #include <vector>
 
@@ -46,6 +47,7 @@ int serveAsAsked(const CLI::App& app, CLI::App& command, const ConfigChoice& con
     std::fputs(configOf(command).c_str(), stdout);
     return std::fflush(stdout) == 0 ? cli::kExitOk : cli::kExitProblem;
   }
+  ::prctl(PR_SET_DUMPABLE, 0); // its memory, environment and files are no other process's, one of the same user least
   std::vector<StaticFile> page;
   for (const WebFile& file : webFiles()) page.push_back({file.path, file.contentType, file.bytes});
   return serve(options, std::move(page));

@@ -67,7 +67,7 @@ MAY_INCLUDE = {
     "server/system": ["protocol/base", "server/system"],
     "server/redis": ["protocol/base", "server/system", "server/redis"],
     "server/wire": BOTH_PROCESSES,
-    "server/worker": BOTH_PROCESSES + ["server/worker", "renderer/core/parallel.h"],
+    "server/worker": BOTH_PROCESSES + ["server/worker", "renderer/core/file_access.h", "renderer/core/parallel.h", "renderer/core/system_calls.h"],
     "server/http": BOTH_PROCESSES + ["server/http"],
     "server/access": BOTH_PROCESSES + ["server/http", "server/access"],
     "server/scenes": BOTH_PROCESSES + ["server/http", "server/redis", "server/scenes"],
@@ -123,8 +123,9 @@ KEPT_IN = {
     "embree3/": ["renderer/rays"],
     "hwy/": ["renderer/cpu"],
     "openvdb/": ["renderer/volume/vdb"],
+    "seccomp.h": ["renderer/core/system_calls.cpp"],
     "systemd/": ["server/process/service_manager.cpp"],
-    "tbb/": ["renderer/core/parallel.cpp"],
+    "tbb/": ["renderer/core/parallel.cpp", "renderer/volume/vdb"],
     "vpx/": ["renderer/video"],
 }
 

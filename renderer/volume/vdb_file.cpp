@@ -63,19 +63,24 @@ class Child : public VdbProcess {
   pid_t id_;
 };
 
+/// The first that exists; nothing where none does.
+std::optional<std::filesystem::path> firstOf(const std::vector<std::filesystem::path>& programs) {
+  std::error_code ignored;
+  const auto found =
+      std::ranges::find_if(programs, [&](const auto& path) { return std::filesystem::exists(path, ignored); });
+  return found == programs.end() ? std::nullopt : std::optional(*found);
+}
+
 /// Where this program's own may lie; none where it is unknown.
-const std::vector<std::filesystem::path>& ownPrograms() {
-  static const std::vector<std::filesystem::path> paths = [] {
-    std::error_code error;
-    const std::filesystem::path executable = std::filesystem::read_symlink("/proc/self/exe", error);
-    return error ? std::vector<std::filesystem::path>() : vdbProgramPaths(executable);
-  }();
-  return paths;
+std::vector<std::filesystem::path> ownPrograms() {
+  std::error_code error;
+  const std::filesystem::path executable = std::filesystem::read_symlink("/proc/self/exe", error);
+  return error ? std::vector<std::filesystem::path>() : vdbProgramPaths(executable);
 }
 
 /// What startVdbBy was given.
 StartVdb& starter() {
-  static StartVdb start = startVdbAsChild;
+  static StartVdb start = vdbAsChild(ownPrograms());
   return start;
 }
 
@@ -148,17 +153,17 @@ Problem problemOf(Received received, VdbProcess& process, std::chrono::milliseco
   // As a shell and the dynamic linker end.
   if (code == 126 || code == 127)
     return unusable(std::string(vdb::kProgram) + " or a library that it needs cannot be opened");
+  if (code == vdb::unsealed)
+    return unusable("the system does not let " + std::string(vdb::kProgram) + " give up its rights");
   return problemOf(code, {});
 }
 
 } // namespace
 
-std::unique_ptr<VdbProcess> startVdbAsChild(VdbPrograms programs, const std::string& name, int input, int output) {
-  const auto program = std::find_if(programs.begin(), programs.end(), [](const std::filesystem::path& path) {
-    std::error_code ignored;
-    return std::filesystem::exists(path, ignored);
-  });
-  if (program == programs.end()) return nullptr;
+namespace {
+
+std::unique_ptr<VdbProcess> startAsChild(const std::filesystem::path& program, const std::string& name, int input,
+                                         int output) {
   posix_spawn_file_actions_t files;
   posix_spawnattr_t attributes;
   posix_spawn_file_actions_init(&files);
@@ -171,7 +176,7 @@ std::unique_ptr<VdbProcess> startVdbAsChild(VdbPrograms programs, const std::str
   sigemptyset(&none);
   posix_spawnattr_setsigmask(&attributes, &none);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
-  std::string path = program->string(), text = name;
+  std::string path = program.string(), text = name;
   std::array<char*, 3> arguments{path.data(), text.data(), nullptr};
   std::array<char*, 1> environment{nullptr};
   pid_t child = -1;
@@ -181,9 +186,28 @@ std::unique_ptr<VdbProcess> startVdbAsChild(VdbPrograms programs, const std::str
   return error == 0 ? std::make_unique<Child>(child) : nullptr;
 }
 
+} // namespace
+
+StartVdb vdbAsChild(std::vector<std::filesystem::path> programs) {
+  return
+      [programs = std::move(programs)](const std::string& name, int input, int output) -> std::unique_ptr<VdbProcess> {
+        const auto program = firstOf(programs);
+        return program ? startAsChild(*program, name, input, output) : nullptr;
+      };
+}
+
 void startVdbBy(StartVdb start) {
-  ownPrograms(); // read while that is allowed
   starter() = std::move(start);
+}
+
+std::optional<std::filesystem::path> ownVdbProgram() {
+  return firstOf(ownPrograms());
+}
+
+bool isGridName(std::string_view name) {
+  constexpr std::size_t kMostBytes = 4 * 255; // 255 characters
+  const auto isControl = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7f; };
+  return name.size() <= kMostBytes && std::ranges::none_of(name, isControl);
 }
 
 std::vector<std::filesystem::path> vdbProgramPaths(const std::filesystem::path& executable) {
@@ -191,8 +215,11 @@ std::vector<std::filesystem::path> vdbProgramPaths(const std::filesystem::path& 
   return {folder / vdb::kProgram, (folder / ".." / "lib" / "gnomon" / vdb::kProgram).lexically_normal()};
 }
 
-Result<DensityGrid> readVdb(std::span<const std::uint8_t> file, const std::string& name, VdbPrograms programs,
+Result<DensityGrid> readVdb(std::span<const std::uint8_t> file, const std::string& name, const StartVdb& start,
                             std::chrono::milliseconds deadline) {
+  if (!isGridName(name)) {
+    return Problem{ProblemCode::invalidValue, "", "The name of a grid has no control characters.", "1..255 characters"};
+  }
   const Clock::time_point end = Clock::now() + deadline;
   const Descriptor input = memoryFileOf(file);
   std::array<int, 2> ends{-1, -1};
@@ -200,7 +227,7 @@ Result<DensityGrid> readVdb(std::span<const std::uint8_t> file, const std::strin
     return unusable("there are no more files or no more memory");
   const Descriptor output(ends[0]);
   Descriptor written(ends[1]);
-  const auto process = starter()(programs, name, input.number(), written.number());
+  const auto process = start(name, input.number(), written.number());
   if (!process)
     return unusable(std::string(vdb::kProgram) +
                     " can't be started; it belongs beside the program, or in ../lib/gnomon");
@@ -223,7 +250,7 @@ Result<DensityGrid> readVdb(std::span<const std::uint8_t> file, const std::strin
 }
 
 Result<DensityGrid> readVdb(std::span<const std::uint8_t> file, const std::string& name) {
-  return readVdb(file, name, ownPrograms());
+  return readVdb(file, name, starter());
 }
 
 } // namespace gnomon

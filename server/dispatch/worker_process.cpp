@@ -4,8 +4,9 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
-#include <fstream>
+#include <fcntl.h>
 #include <spawn.h>
 #include <string_view>
 #include <sys/wait.h>
@@ -87,6 +88,11 @@ Result<std::shared_ptr<WorkerProcess>> WorkerProcess::start(const std::string& p
   return std::shared_ptr<WorkerProcess>(new WorkerProcess(*pid, std::move(ends->first)));
 }
 
+WorkerProcess::WorkerProcess(pid_t pid, FileDescriptor channel)
+    : pid_(pid),
+      memory_(::open(("/proc/" + std::to_string(pid) + "/statm").c_str(), O_RDONLY | O_CLOEXEC)),
+      channel_(std::move(channel)) {}
+
 WorkerProcess::~WorkerProcess() {
   kill();
   if (!ended_) end();
@@ -113,10 +119,11 @@ WorkerProcess::Ending WorkerProcess::end() {
 }
 
 std::uint64_t WorkerProcess::residentBytes() const {
-  std::ifstream file("/proc/" + std::to_string(pid_) + "/statm"); // proc(5): pages, in all and resident
-  std::uint64_t all = 0, resident = 0;
-  file >> all >> resident;
-  return file ? resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
+  std::array<char, 128> text{}; // proc(5): pages, in all and resident
+  if (::pread(memory_.get(), text.data(), text.size() - 1, 0) <= 0) return 0;
+  unsigned long long all = 0, resident = 0;
+  if (std::sscanf(text.data(), "%llu %llu", &all, &resident) != 2) return 0;
+  return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
 } // namespace gnomon

@@ -38,9 +38,11 @@ class WorkerProcess {
   std::uint64_t residentBytes() const;
 
  private:
-  WorkerProcess(pid_t pid, FileDescriptor channel) : pid_(pid), channel_(std::move(channel)) {}
+  WorkerProcess(pid_t pid, FileDescriptor channel);
 
   pid_t pid_;
+  FileDescriptor
+      memory_; ///< its /proc/PID/statm, opened while it is visible: a process that none may look into may not be
   std::mutex ending_;
   bool ended_ = false; ///< its id may be another process's now
   Channel channel_;

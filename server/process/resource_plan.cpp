@@ -57,7 +57,13 @@ std::uint64_t workerBytes(const ServeOptions& options, std::size_t workers, std:
   const std::uint64_t front = kListening + options.uploadMemoryBytes + options.replyMemoryBytes +
                               options.videoMemoryBytes + options.replyCacheBytes + bundles;
   constexpr std::uint64_t kLeast = 256u << 20; ///< below it a worker can't draw at all
-  return std::max(kLeast, (memoryBytes - std::min(front, memoryBytes)) / workers);
+  const std::uint64_t part = (memoryBytes - std::min(front, memoryBytes)) / workers;
+  return std::max(kLeast, part / 8 * 7);
+}
+
+std::uint64_t vdbReaderBytes(std::uint64_t workerBytes) {
+  constexpr std::uint64_t kMost = 2ull << 30; // the largest grid fits four times
+  return std::min(workerBytes / 7, kMost);
 }
 
 std::size_t raiseDescriptorLimit() {

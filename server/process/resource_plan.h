@@ -16,8 +16,12 @@ ServeOptions fittedTo(std::uint64_t memoryBytes);
 /// them, and at least two, so that a long frame leaves one to short ones; but one where memory is short.
 std::size_t usualWorkers(int cores, std::uint64_t memoryBytes);
 
-/// What one of `workers` may hold before it is replaced: an equal part of what the process that listens leaves.
+/// What one of `workers` may hold before it is replaced: an equal part of what the process that listens leaves, without
+/// what its reader of VDB files may hold.
 std::uint64_t workerBytes(const ServeOptions& options, std::size_t workers, std::uint64_t memoryBytes);
+
+/// What the reader of VDB files of a worker with so many bytes may allocate: it has one at a time.
+std::uint64_t vdbReaderBytes(std::uint64_t workerBytes);
 
 /// What the descriptors that the system grants a process are for.
 struct DescriptorPlan {

@@ -149,6 +149,7 @@ DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr
                                     metrics::RequestMetrics& counted) {
   const std::uint64_t memory = memoryLimit();
   const std::size_t workers = workersOf(options);
+  const std::uint64_t each = workerBytes(options, workers, memory);
   return {.program = options.workerProgram,
           .workers = workers,
           .queueLimit = options.queueLimit,
@@ -163,7 +164,8 @@ DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr
                    .sceneMemoryBytes = options.sceneMemoryBytes / workers,
                    .frameMemoryBytes = options.frameMemoryBytes / workers,
                    .maxSceneBytes = options.maxSceneBytes,
-                   .memoryBytes = workerBytes(options, workers, memory),
+                   .memoryBytes = each,
+                   .vdbBytes = vdbReaderBytes(each),
                    .keepsLightMaps = lightMaps != nullptr},
           .lightMaps = lightMaps,
           .waited = [&counted](Lane lane, double seconds) { counted.waited(lane, seconds); }};

@@ -36,6 +36,7 @@ inline constexpr auto kRows<WorkerOptions> =
          field<&WorkerOptions::frameMemoryBytes>("Pictures.", {.unit = "bytes"}),
          field<&WorkerOptions::maxSceneBytes>("The largest bundle.", {.unit = "bytes"}),
          field<&WorkerOptions::memoryBytes>("The whole process.", {.unit = "bytes"}),
+         field<&WorkerOptions::vdbBytes>("The process that reads a VDB file for it.", {.unit = "bytes"}),
          field<&WorkerOptions::keepsLightMaps>("The front stores light maps."));
 
 template <>

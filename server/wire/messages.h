@@ -30,6 +30,7 @@ struct WorkerOptions {
   std::uint64_t frameMemoryBytes = 4ull << 30; ///< pictures of the frames in progress
   std::uint64_t maxSceneBytes = kLimits.maxSceneBytes;
   std::uint64_t memoryBytes = 0; ///< of the whole process; 0 = as much as there is
+  std::uint64_t vdbBytes = 0;    ///< of the process that reads a VDB file for it; 0 = as much as that allows itself
 
   bool keepsLightMaps = false; ///< the front stores light maps
 };

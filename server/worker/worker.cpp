@@ -116,7 +116,17 @@ class Worker {
     return *message->start;
   }
 
+  [[noreturn]] void refuse(const Problems& problems) {
+    say({.refusal = Refusal{problems}});
+    end(1);
+  }
+
   void start(const WorkerOptions& options) {
+    vdb_ = VdbStarter::start({ownVdbProgram(), options.vdbBytes});
+    if (!vdb_) end(1);
+    startVdbBy([this](const std::string& name, int input, int output) { return vdb_->startVdb(name, input, output); });
+    const auto confined = confineFiles();
+    if (!confined) refuse(confined.problems());
     Limits limits;
     limits.maxSceneBytes = options.maxSceneBytes;
     auto renderer = RenderThread::start({.backend = {options.device, options.backend, options.requireGpu},
@@ -126,10 +136,7 @@ class Worker {
                                          .lightMaps = options.keepsLightMaps ? lightMaps_ : nullptr,
                                          .volumeBytes = options.volumeBytes,
                                          .tileCacheBytes = options.tileCacheBytes});
-    if (!renderer) {
-      say({.refusal = Refusal{renderer.problems()}});
-      end(1);
-    }
+    if (!renderer) refuse(renderer.problems());
     renderer_ = *std::move(renderer);
     scenes_ = std::make_unique<SceneLoader>(options.sceneMemoryBytes, limits);
     context_ = std::unique_ptr<WorkContext>(new WorkContext{*renderer_,
@@ -139,10 +146,13 @@ class Worker {
                                                             {},
                                                             options.keepsLightMaps ? lightMaps_ : nullptr});
     const bool drivers = renderer_->info().device == DeviceChoice::gl;
-    if (const auto sealed = seal(drivers ? Seal::drivers : Seal::full, options.memoryBytes); !sealed) {
-      say({.refusal = Refusal{sealed.problems()}});
-      end(1);
+    if (drivers && !*confined) {
+      logEvent("worker",
+               "The system has no Landlock: a worker with a graphics driver may read and change what its "
+               "user may.");
     }
+    const auto sealed = seal(drivers ? Seal::drivers : Seal::full, options.memoryBytes);
+    if (!sealed) refuse(sealed.problems());
     say({.ready = renderer_->info()});
   }
 
@@ -226,6 +236,7 @@ class Worker {
 
   Channel channel_;
   std::shared_ptr<FrontLightMaps> lightMaps_;
+  std::unique_ptr<VdbStarter> vdb_;
   std::unique_ptr<RenderThread> renderer_;
   std::unique_ptr<SceneLoader> scenes_;
   std::unique_ptr<WorkContext> context_;
@@ -235,11 +246,6 @@ class Worker {
 } // namespace
 
 void runWorker(FileDescriptor channel) {
-  static const std::unique_ptr<VdbStarter> vdb = VdbStarter::start();
-  if (!vdb) end(1);
-  startVdbBy([](VdbPrograms programs, const std::string& name, int input, int output) {
-    return vdb->startVdb(programs, name, input, output);
-  });
   boundHeaps(coresToUse() + 1);
   // Signals are the front's; it closes the channel when it ends.
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(number, SIG_IGN);

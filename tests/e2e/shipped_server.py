@@ -49,9 +49,9 @@ class Reply:
 
 class Server:
     """`gnomon serve` with further flags, on any free port unless one is given, with further variables in its
-    environment, and no more than `descriptors` where that is given. Use it in a `with` statement."""
+    environment, no more than `descriptors`, and by a `user` where these are given. Use it in a `with` statement."""
 
-    def __init__(self, *flags, port=0, variables=None, descriptors=None):
+    def __init__(self, *flags, port=0, variables=None, descriptors=None, user=None):
         self.log = tempfile.TemporaryFile()
         limited = [] if descriptors is None else ["prlimit", f"--nofile={descriptors}"]
         self.process = subprocess.Popen(
@@ -61,6 +61,9 @@ class Server:
             stderr=self.log,
             text=True,
             env=environment(**(variables or {})),
+            user=user,
+            group=user,
+            extra_groups=None if user is None else [],
         )
         line = self.process.stdout.readline()  # printed once requests are taken
         if not line.startswith("listening on http://"):

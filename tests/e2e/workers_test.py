@@ -1,7 +1,9 @@
-"""Workers end, hang and grow: nobody else notices, and nothing that was stored is lost."""
+"""Workers end, hang, grow and are taken over: other requests are served, and nothing that was stored is lost."""
 
-import json
+import ctypes
+import glob
 import os
+import re
 import signal
 import subprocess
 import tempfile
@@ -10,9 +12,15 @@ import time
 import unittest
 from pathlib import Path
 
-from shipped_server import SLOW, SMALL, Server, ServerTest, workers_of
+from shipped_server import SLOW, SMALL, Server, ServerTest, started_by, workers_of
 
 FAULTY = os.environ["GNOMON_FAULTY_WORKER"]
+
+
+def has_landlock():
+    """Whether the kernel says its version (landlock_create_ruleset(2))."""
+    create_ruleset, version = 444, 1
+    return ctypes.CDLL(None).syscall(create_ruleset, None, 0, version) > 0
 
 
 def leads_to(link):
@@ -162,6 +170,67 @@ class SealedWorkers(unittest.TestCase):
                 self.assertEqual(reply.status, 200, reply.body)
             (only,) = workers_of(server)
             self.assert_sealed(only)
+
+
+def has_gpu():
+    return bool(glob.glob("/dev/dri/render*")) or any(map(os.path.exists, ("/dev/nvidiactl", "/dev/kfd", "/dev/dxg", "/dev/mali0")))
+
+
+@unittest.skipIf(has_gpu(), "this machine has a GPU")
+class WithoutGpu(unittest.TestCase):
+    def test_auto_loads_no_driver_and_refuses_opengl(self):
+        with Server("--workers", "1") as server:
+            scene = server.upload("box_on_plane")
+            self.assertEqual(server.frame(scene, SMALL).status, 200)
+            refused = server.frame(scene, SMALL | {"device": "gl"})
+            self.assertEqual((refused.status, refused.pointers()), (422, ["/device"]), refused.body)
+            self.assertIn("start with --device gl", refused.json()["problems"][0]["detail"])
+            (only,) = workers_of(server)
+            mapped = Path(f"/proc/{only}/maps").read_text()
+            self.assertIn("libc.so", mapped)
+            self.assertNotRegex(mapped, "libEGL|libGL|OSMesa|_dri|libLLVM")
+
+
+class TakenOverWorkers(unittest.TestCase):
+    """A real worker runs injected code once it is sealed (tests/server/worker/escapes.cpp)."""
+
+    DRIVERS_NEED = {"map code", "make memory code", "read a library"}
+
+    def escapes(self, *flags):
+        """What it could do to a server and its files."""
+        with (tempfile.NamedTemporaryFile() as secret,
+              Server("--workers", "1", "--worker-program", FAULTY, *flags, variables={"TEST_SECRET": secret.name}) as server):
+            scene = server.upload("box_on_plane")
+            self.assertEqual(server.frame(scene, SMALL).status, 200)
+            reply = server.frame(scene, SMALL | {"camera": {"node": "fault-escape"}}, Prefer="wait=3")
+            self.assertEqual(reply.status, 504, reply.body)
+            self.assertIn("escape: tried all", server.settled_log())
+            self.assertEqual(server.get("/livez").status, 200)
+            return set(re.findall("^escape: could (.*)$", server.log_text(), re.MULTILINE))
+
+    def test_one_that_draws_by_the_processor_gets_nowhere(self):
+        self.assertEqual(self.escapes("--device", "cpu"), set())
+
+    @unittest.skipUnless(has_landlock(), "this kernel has no Landlock")
+    def test_one_that_draws_by_opengl_reads_what_drivers_read(self):
+        self.assertEqual(self.escapes("--device", "gl"), self.DRIVERS_NEED)
+
+
+class ClosedProcesses(unittest.TestCase):
+    """Processes of the same user can't look into the front, its workers, and what starts the readers of VDB files."""
+
+    @unittest.skipUnless(os.geteuid() == 0, "another user is needed")
+    def test_their_memory_and_variables_are_the_systems(self):
+        with Server("--workers", "1", "--device", "cpu", user=65532) as server:
+            scene = server.upload("box_on_plane")
+            self.assertEqual(server.frame(scene, SMALL).status, 200, "such a server works")
+            below = {pid for pid, _ in started_by(server.process.pid)}
+            self.assertGreaterEqual(len(below), 2, "a worker, and its starter")
+            for pid in below | {server.process.pid}:
+                self.assertEqual(os.stat(f"/proc/{pid}").st_uid, 0, "root's: the process is not dumpable")
+                self.assertIn("Uid:\t65532", Path(f"/proc/{pid}/status").read_text())
+            resident = re.search(rb"^gnomon_workers_resident_bytes (\S+)$", server.get("/metrics").body, re.MULTILINE)
+            self.assertGreater(float(resident[1]), 1 << 20, "its memory is still known")
 
 
 class FaultyWorkers(ServerTest):

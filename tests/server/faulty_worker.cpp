@@ -1,8 +1,10 @@
 #include <array>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <sys/syscall.h>
 #include <thread>
 #include <unistd.h>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "server/wire/channel.h"
 #include "server/wire/messages.h"
 #include "server/worker/worker.h"
+#include "tests/server/worker/escapes.h"
 
 /// A worker that goes wrong on request: a real one behind a relay that looks for the name of a fault in the text of
 /// each order. What has none is carried out as ever.
@@ -30,6 +33,21 @@ void sendGarbage(Channel& front) {
   front.send("{\"outcome\": [}");
 }
 
+/// Everything that a worker which was taken over may try, on the thread that was first: the system's rules for files
+/// are those of a thread and of all that it starts. What succeeds is a line in the log.
+void tryEscapes(int) {
+  const char* secret = std::getenv("TEST_SECRET");
+  for (const Escape& escape : escapes()) {
+    if (succeeds(escape, ::getppid(), secret == nullptr ? "" : secret))
+      std::fprintf(stderr, "escape: could %s\n", escape.what);
+  }
+  std::fputs("escape: tried all\n", stderr);
+}
+
+void escape(Channel&) {
+  ::syscall(SYS_tgkill, ::getpid(), ::getpid(), SIGUSR1);
+} // and the order is never carried out
+
 void swallow(Channel&) {} // neither carried out nor stopped
 
 const std::map<std::string, void (*)(Channel&)> kFaults{
@@ -38,6 +56,7 @@ const std::map<std::string, void (*)(Channel&)> kFaults{
     {"fault-memory", [](Channel&) { eatMemory(); }},
     {"fault-silence", [](Channel&) { std::raise(SIGSTOP); }},
     {"fault-garbage", sendGarbage},
+    {"fault-escape", escape},
 };
 
 /// True where the order's text names a fault, which has happened then.
@@ -81,5 +100,6 @@ void runFaultyWorker() {
 } // namespace gnomon
 
 int main() {
+  std::signal(SIGUSR1, gnomon::tryEscapes);
   gnomon::runFaultyWorker();
 }

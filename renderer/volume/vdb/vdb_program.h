@@ -4,7 +4,8 @@
 #include <cstdint>
 
 /// Between Gnomon and the program gnomon_vdb, which is started with a .vdb file as its standard input and the name of a
-/// grid, which may be empty, as its argument. It writes a Reply and what belongs to it.
+/// grid, which may be empty, as its argument. Before it reads it gives up all rights but to compute on that file, and
+/// it uses one thread. It writes a Reply and what belongs to it.
 namespace gnomon::vdb {
 
 inline constexpr const char* kProgram = "gnomon_vdb";
@@ -15,7 +16,8 @@ enum Outcome : std::int32_t {
   broken = 10,     ///< not a VDB file, or not a whole one
   noSuchGrid = 11, ///< the names of the float grids follow
   empty = 12,      ///< the grid has no active voxel
-  tooLarge = 13    ///< more memory than it may take
+  tooLarge = 13,   ///< more memory than it may take
+  unsealed = 14    ///< the system refused to take its rights from it, and it has read nothing
 };
 
 struct Reply {

@@ -79,7 +79,7 @@ TEST(VdbFile, AReaderThatIsMissingIsOurOwnMistakeAndNamesNoPath) {
   ASSERT_EQ(paths.size(), 2u);
   EXPECT_EQ(paths[0], "/opt/gnomon/bin/gnomon_vdb");
   EXPECT_EQ(paths[1], "/opt/gnomon/lib/gnomon/gnomon_vdb");
-  const auto grid = readVdb({}, {}, paths);
+  const auto grid = readVdb({}, {}, vdbAsChild(paths));
   ASSERT_FALSE(grid);
   EXPECT_EQ(grid.problems().front().code, ProblemCode::internal);
   EXPECT_THAT(grid.problems().front().detail, testing::Not(HasSubstr("/opt")));
@@ -87,8 +87,7 @@ TEST(VdbFile, AReaderThatIsMissingIsOurOwnMistakeAndNamesNoPath) {
 
 TEST(VdbFile, AReaderThatCrashesHangsOrSaysTooLittleIsAProblem) {
   const auto by = [](const char* program, const std::string& argument) {
-    const std::vector<std::filesystem::path> programs{program};
-    const auto grid = readVdb({}, argument, programs, std::chrono::milliseconds(300));
+    const auto grid = readVdb({}, argument, vdbAsChild({program}), std::chrono::milliseconds(300));
     EXPECT_FALSE(grid);
     return grid ? Problem{} : grid.problems().front();
   };
