@@ -15,6 +15,10 @@ SceneCounts sceneCounts(const SceneSummary& summary) {
     const auto kind = std::ranges::find(kSpellings<LightType>, light.type, &Spelling::name);
     if (kind != kSpellings<LightType>.end()) counts.lights.push_back(static_cast<LightType>(kind->value));
   }
+  if (!summary.volumeFiles.empty()) {
+    counts.voxels =
+        static_cast<double>(summary.memory.volumes) / static_cast<double>(summary.volumeFiles.size() * sizeof(float));
+  }
   return counts;
 }
 
@@ -30,8 +34,8 @@ constexpr double kLitPixel = 4;         ///< for each light
 constexpr double kRayOfTexel = 40;      ///< of a light map
 constexpr double kVolumeTriangle = 400; ///< of a shadow volume
 constexpr double kReferenceRay = 90;
-constexpr double kMarchedPixel = 900; ///< through a volume
-constexpr double kVolumeLight = 4e8;  ///< light in a volume, for each light
+constexpr double kMarchedPixel = 900; ///< through a volume of 64 voxels along each side
+constexpr double kVolumeStep = 16;    ///< of a ray towards a light, in each of the volumes
 constexpr double kPredictedPixel = 80;
 constexpr double kReadPixel = 3;
 constexpr double kPngPixel = 2.5;    ///< by ISA-L
@@ -55,10 +59,20 @@ constexpr std::array kEncodingCosts{
 };
 static_assert(rowsAreComplete(kEncodingCosts, &EncodingCost::format));
 
-std::vector<Light> lightsOf(const FrameSpec& spec, const SceneCounts& scene) {
-  std::vector<Light> own;
-  for (const LightType type : scene.lights) own.push_back({.type = type});
-  return lightsOf(spec, own);
+/// Voxels along a side of a volume, as far as more of them make rays longer.
+double volumeSide(const SceneCounts& scene) {
+  constexpr double kMost = 512; // more voxels are crossed in longer steps
+  return std::clamp(std::cbrt(scene.voxels), 1.0, kMost);
+}
+
+/// The light in all volumes: from each point of each, towards each light, through all of them.
+double volumeLightCost(const FrameSpec& spec, const SceneCounts& scene, std::size_t lights) {
+  constexpr double kMostPoints = 64; // along a side of a light map
+  constexpr double kStepsOfVoxel = 2;
+  const auto volumes = static_cast<double>(spec.volumes.size());
+  const double points = std::pow(std::min(volumeSide(scene) + 1, kMostPoints), 3);
+  const double steps = kStepsOfVoxel * volumeSide(scene);
+  return volumes * points * volumes * steps * static_cast<double>(std::max<std::size_t>(lights, 1)) * kVolumeStep;
 }
 
 double bakedTexels(const LightMapOptions& options) {
@@ -118,8 +132,20 @@ double referenceRays(const FrameSpec& spec, const std::vector<Light>& lights) {
 
 } // namespace
 
+std::vector<Light> settledLights(const FrameSpec& spec, const SceneCounts& scene, DeviceKind device) {
+  std::vector<Light> own;
+  for (const LightType type : scene.lights) own.push_back({.type = type});
+  std::vector<Light> lights = lightsOf(spec, own);
+  for (const int index : shadowingLights(lights, spec.shadowLightPolicy)) {
+    Light& light = lights[static_cast<std::size_t>(index)];
+    ShadowTechnique& technique = light.shadow->technique;
+    if (technique == ShadowTechnique::auto_) technique = chooseTechnique(light, spec, scene, device).technique;
+  }
+  return lights;
+}
+
 FrameCost frameCost(const FrameSpec& spec, const SceneCounts& scene, DeviceKind device) {
-  std::vector<Light> lights = lightsOf(spec, scene);
+  const std::vector<Light> lights = settledLights(spec, scene, device);
   const double pixels = pixelsOf(spec);
   const auto shows = [&](auto which) {
     return std::any_of(spec.views.begin(), spec.views.end(), [&](View view) { return which(traitsOf(view)); });
@@ -129,10 +155,7 @@ FrameCost frameCost(const FrameSpec& spec, const SceneCounts& scene, DeviceKind 
   cost[FramePart::survey] =
       static_cast<double>(scene.triangles) * kTriangle + pixels * samplesOf(spec.antialiasing) * kSample;
   for (const int index : shadowingLights(lights, spec.shadowLightPolicy)) {
-    Light& light = lights[static_cast<std::size_t>(index)];
-    ShadowTechnique& technique = light.shadow->technique;
-    if (technique == ShadowTechnique::auto_) technique = chooseTechnique(light, spec, scene, device).technique;
-    addLayer(light, spec, scene, cost);
+    addLayer(lights[static_cast<std::size_t>(index)], spec, scene, cost);
   }
   double lookups = 0;
   for (const int index : mappedLights(lights, spec)) {
@@ -146,9 +169,9 @@ FrameCost frameCost(const FrameSpec& spec, const SceneCounts& scene, DeviceKind 
   }
   if (spec.debug.predictEdges) cost[FramePart::predict] = pixels * kPredictedPixel;
   if (!spec.volumes.empty()) {
-    const auto volumes = static_cast<double>(spec.volumes.size());
-    cost[FramePart::volume] = volumes * static_cast<double>(std::max<std::size_t>(lights.size(), 1)) * kVolumeLight;
-    cost[FramePart::shade] += pixels * volumes * kMarchedPixel;
+    cost[FramePart::volume] = volumeLightCost(spec, scene, lights.size());
+    cost[FramePart::shade] +=
+        pixels * static_cast<double>(spec.volumes.size()) * kMarchedPixel * volumeSide(scene) / 64;
   }
   return cost;
 }

@@ -17,6 +17,7 @@ struct SceneCounts {
   std::uint64_t triangles = 0;     ///< of the default glTF scene
   std::vector<LightType> lights{}; ///< the scene's own; they count where a request names none
   std::uint64_t holed = 0;         ///< triangles whose materials have holes, or let light through
+  double voxels = 262'144;         ///< of a volume, about: of floats, as large as its files are on average
 };
 
 /// What draws, as far as costs differ.
@@ -24,6 +25,14 @@ enum class DeviceKind { processor, softwareGl, gpu };
 DeviceKind kindOf(const RendererInfo& info);
 
 double pixelsOf(const FrameSpec& spec);
+
+/// The frame's lights, the technique of each chosen where it was left open.
+std::vector<Light> settledLights(const FrameSpec& spec, const SceneCounts& scene, DeviceKind device);
+
+/// Texels of all tiles of `light`, as if it showed in all of the picture: as many as there can be.
+double tileTexels(const Light& light, const FrameSpec& spec);
+/// Whether what the filter reads is made of a tile's depths: moments.
+bool isBlurred(const Filter& filter);
 
 /// Of drawing all tiles of `light` as if it showed in all of the picture.
 double tileCost(const Light& light, const FrameSpec& spec, std::uint64_t triangles);
@@ -58,8 +67,8 @@ struct FrameCost {
 
 /// Of a frame that finds nothing of earlier ones: every tile is drawn, every light map baked. What the camera sees is
 /// not known, so that it counts as if surfaces filled the picture, lit by every light. Grows with each of: pixels,
-/// samples, views, lights, rays, texels, triangles. `device`: what technique auto chooses for. REQUIRES: `spec` has
-/// passed protocol/validate.
+/// samples, views, lights, rays, texels, triangles, voxels. `device`: what technique auto chooses for. REQUIRES: `spec`
+/// has passed protocol/validate.
 FrameCost frameCost(const FrameSpec& spec, const SceneCounts& scene, DeviceKind device = DeviceKind::processor);
 
 } // namespace gnomon

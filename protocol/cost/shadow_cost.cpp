@@ -43,10 +43,6 @@ double tapsOf(const Filter& filter) {
   return 4;
 }
 
-bool isBlurred(const Filter& filter) {
-  return filter.type == FilterType::vsm || filter.type == FilterType::evsm || filter.type == FilterType::msm;
-}
-
 /// As if the light showed in all of the picture.
 double tileSide(const Light& light, const FrameSpec& spec) {
   const Shadow& shadow = *light.shadow;
@@ -71,9 +67,17 @@ double pixelsOf(const FrameSpec& spec) {
   return static_cast<double>(spec.width) * spec.height;
 }
 
-double tileCost(const Light& light, const FrameSpec& spec, std::uint64_t triangles) {
+bool isBlurred(const Filter& filter) {
+  return filter.type == FilterType::vsm || filter.type == FilterType::evsm || filter.type == FilterType::msm;
+}
+
+double tileTexels(const Light& light, const FrameSpec& spec) {
   const double room = static_cast<double>(spec.atlas.size) * spec.atlas.size;
-  const double texels = std::min(tileCount(light) * tileSide(light, spec) * tileSide(light, spec), room);
+  return std::min(tileCount(light) * tileSide(light, spec) * tileSide(light, spec), room);
+}
+
+double tileCost(const Light& light, const FrameSpec& spec, std::uint64_t triangles) {
+  const double texels = tileTexels(light, spec);
   const auto count = static_cast<double>(triangles);
   const double rows = std::sqrt(texels * spec.atlas.samples);
   return tileCount(light) * count * kTileTriangle + rows * kTileRow * std::pow(count, kTileGrowth) +

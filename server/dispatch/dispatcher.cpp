@@ -125,6 +125,7 @@ TaskResult Dispatcher::run(Task task, const std::function<bool()>& gone, const T
     if (ticket->state == Ticket::State::done) continue;
     const bool waited = ticket->state == Ticket::State::waiting;
     if (left || Clock::now() >= deadline) {
+      if (!waited && !left && deadline == ticket->task.deadline) learnFrom(*ticket, true);
       callOff(ticket);
       if (left) return failed({ProblemCode::unavailable, "", "The work was stopped before it was done.", "", ""});
       return failed(deadline < ticket->task.deadline ? endingProblem() : lateProblem(waited));
@@ -152,9 +153,27 @@ void Dispatcher::finish(const TicketPtr& ticket, TaskResult result) {
   constexpr double kShare = 0.2; ///< of the newest task in the average
   const double took = millisecondsSince(ticket->since);
   taskMs_ = taskMs_ == 0 ? took : taskMs_ + kShare * (took - taskMs_);
+  const Problems& problems = result.outcome.problems;
+  const bool isLate = !problems.empty() && problems.front().code == ProblemCode::deadlineExceeded;
+  if (!ticket->calledOff && (problems.empty() || isLate)) learnFrom(*ticket, isLate);
   ticket->result = std::move(result);
   ticket->state = Ticket::State::done;
   ticket->changed.notify_one();
+}
+
+/// What it took to draw a frame, or not to. With the mutex held.
+void Dispatcher::learnFrom(const Ticket& ticket, bool isLate) {
+  if (!ticket.task.cost) return;
+  const double took = millisecondsSince(ticket.since);
+  const double allowed = std::chrono::duration<double, std::milli>(ticket.task.allowed).count();
+  constexpr double kAlmostAll = 0.9; // else the queue had a part in it
+  if (!isLate) passedDeadlines_.done(*ticket.task.cost, took);
+  if (isLate && took >= kAlmostAll * allowed) passedDeadlines_.passed(*ticket.task.cost, allowed, Clock::now());
+}
+
+double Dispatcher::leastMilliseconds(const FrameCost& cost) const {
+  const Lock lock(mutex_);
+  return passedDeadlines_.atLeast(cost, Clock::now());
 }
 
 double Dispatcher::milliseconds(const FrameSpec& spec, const SceneCounts& scene) const {

@@ -15,6 +15,7 @@
 
 #include "protocol/base/result.h"
 #include "protocol/cost/cost_model.h"
+#include "protocol/cost/passed_deadlines.h"
 #include "server/dispatch/placement.h"
 #include "server/dispatch/task.h"
 #include "server/dispatch/worker_process.h"
@@ -83,6 +84,9 @@ class Dispatcher {
   /// How long a frame may take that finds nothing of earlier ones, as workers have learned.
   double milliseconds(const FrameSpec& spec, const SceneCounts& scene) const;
 
+  /// How long it takes at least, as deadlines that passed have taught (Task::cost); 0 = not known.
+  double leastMilliseconds(const FrameCost& cost) const;
+
   /// A scene was deleted: workers drop it.
   void forget(const std::string& scene);
 
@@ -125,6 +129,7 @@ class Dispatcher {
   void refuseOne();
   bool send(const TicketPtr& ticket, std::size_t worker);
   void finish(const TicketPtr& ticket, TaskResult result);
+  void learnFrom(const Ticket& ticket, bool isLate);
   void callOff(const TicketPtr& ticket);
   int retryAfterSeconds() const;
 
@@ -139,7 +144,8 @@ class Dispatcher {
   std::uint64_t reusedImages_ = 0;
   double taskMs_ = 0; ///< moving average of what a task takes in a worker
   RendererInfo info_;
-  FrameCost costFactors_;           ///< milliseconds for a unit of each part
+  FrameCost costFactors_; ///< milliseconds for a unit of each part
+  PassedDeadlines passedDeadlines_;
   std::optional<Problems> refusal_; ///< of a worker that could not start
   Clock::time_point endAt_ = Clock::time_point::max();
   bool ending_ = false;

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "protocol/cost/frame_cost.h"
 #include "server/system/byte_budget.h"
 #include "server/system/clock.h"
 #include "server/system/file_descriptor.h"
@@ -35,7 +36,9 @@ struct Task {
       allowed{}; ///< from the request's first byte to the deadline, for the problem that quotes it
   Lane lane = Lane::interactive;
   bool holdsRenderer = false; ///< draws for so long that others of its worker would wait
-  std::string client;         ///< its address: tasks of different clients take turns
+  std::optional<FrameCost>
+      cost{};                ///< of a frame that has the whole time of a request: its end teaches what frames take
+  std::string client;        ///< its address: tasks of different clients take turns
   std::string affinityKey{}; ///< tasks whose scenes have much in common; they prefer one worker. Empty = the scene's id
 };
 

@@ -74,6 +74,7 @@ bool Dispatcher::startWorker(Slot& slot) {
   slot.lastMessage = Clock::now();
   slot.fault = {};
   slot.isHandled = false;
+  slot.beat.costFactors.clear();
   if (ending_) slot.process->kill();
   return slot.process->channel().send(textOf(ToWorker{.start = options_.each}));
 }
@@ -101,11 +102,13 @@ bool Dispatcher::take(Slot& slot, Packet packet) {
     const auto since = [](std::uint64_t before, std::uint64_t now) { return now >= before ? now - before : now; };
     reusedMeshes_ += since(slot.beat.reusedMeshes, message->beat->reusedMeshes); // a new worker begins at 0
     reusedImages_ += since(slot.beat.reusedImages, message->beat->reusedImages);
-    slot.beat = *message->beat;
+    const std::vector<double> known = std::exchange(slot.beat, *message->beat).costFactors;
     const std::vector<double>& factors = slot.beat.costFactors;
     const bool sound = factors.size() == kFrameParts &&
                        std::all_of(factors.begin(), factors.end(), [](double factor) { return factor >= 0; });
-    if (sound) std::copy(factors.begin(), factors.end(), costFactors_.parts.begin());
+    for (std::size_t i = 0; sound && known.size() == kFrameParts && i < kFrameParts; ++i) {
+      if (factors[i] != known[i]) costFactors_.parts[i] = factors[i]; // what it has learned just now
+    }
   }
   if (message->ready) {
     info_ = *message->ready;

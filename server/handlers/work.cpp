@@ -74,14 +74,22 @@ Result<Task> frameTask(const Services& services, const RouteCall& call, const st
   if (!hasTarget && estimate > allowed * kDoubt) {
     return Problem{ProblemCode::tooLarge, "",
                    "This frame is more work than can be done in the time of a request "
-                   "(--request-timeout): fewer pixels, lights, samples or rays are less.",
+                   "(--request-timeout): fewer pixels, lights, samples, rays or volumes are less.",
                    secondsText(allowed), "about " + secondsText(estimate)};
+  }
+  const FrameCost cost = frameCost(spec, counts, kindOf(services.workers.info()));
+  if (const double least = services.workers.leastMilliseconds(cost); !hasTarget && least >= allowed) {
+    return Problem{ProblemCode::tooLarge, "",
+                   "Frames of no more work were not done in the time of a request (--request-timeout), and that "
+                   "twice: fewer pixels, lights, samples, rays or volumes are less.",
+                   secondsText(allowed), "more than " + secondsText(least)};
   }
   Task task = taskFor(call, OrderKind::frame, scene, std::move(bundle), jsonText(toJson(spec)),
                       hasTarget ? services.evaluationTimeout : services.requestTimeout);
   const bool isLong = hasTarget || estimate > kLongFrame;
   task.lane = isLong ? Lane::batch : Lane::interactive;
   task.holdsRenderer = isLong && !hasTarget;
+  if (!hasTarget && task.allowed == services.requestTimeout) task.cost = cost;
   return task;
 }
 

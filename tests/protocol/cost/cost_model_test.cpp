@@ -220,6 +220,23 @@ TEST(FrameCost, RaysAreCountedByPixelsSamplesAndLights) {
   EXPECT_EQ(partOf(traced(16), FramePart::shadow), 0);
 }
 
+TEST(FrameCost, LightInVolumesGrowsWithVoxelsLightsAndTheVolumesPassedThrough) {
+  const auto volumeCost = [](std::size_t volumes, double side, std::size_t lights) {
+    FrameSpec spec;
+    spec.volumes.resize(volumes);
+    spec.lights = std::vector<Light>(lights);
+    SceneCounts scene = kScene;
+    scene.voxels = side * side * side;
+    return frameCost(spec, scene)[FramePart::volume];
+  };
+  EXPECT_NEAR(volumeCost(1, 64, 1) * 1e-9, 0.5, 0.3) << "seconds; 0.8 s, 19 s were measured for frames of 1 and 6";
+  EXPECT_NEAR(volumeCost(6, 64, 1) * 1e-9, 19, 5);
+  EXPECT_DOUBLE_EQ(volumeCost(2, 64, 3), 3 * volumeCost(2, 64, 1));
+  EXPECT_GT(volumeCost(16, 64, 1) * 1e-9, 4 * 20) << "refused where a request has 20 s";
+  EXPECT_GT(volumeCost(1, 32, 1), 4 * volumeCost(1, 16, 1));
+  EXPECT_GT(volumeCost(1, 256, 1), 3 * volumeCost(1, 64, 1)) << "longer ways to as many points";
+}
+
 TEST(FrameCost, TheWorstThatLimitsAllowTakesLong) {
   FrameSpec spec = traced(kLimits.maxRaySamples);
   spec.lights = std::vector<Light>(static_cast<std::size_t>(kLimits.maxLights), spec.lights->front());
@@ -231,7 +248,10 @@ TEST(FrameCost, WhatASceneBringsIsInItsSummary) {
   SceneSummary summary;
   summary.triangles = 12;
   summary.lights = {{.type = "spot"}, {.type = "directional"}, {.type = "point"}};
+  summary.volumeFiles = {"a.npy", "b.npy"};
+  summary.memory.volumes = 2 * 4 * 64 * 64 * 64;
   const SceneCounts counts = sceneCounts(summary);
+  EXPECT_DOUBLE_EQ(counts.voxels, 64 * 64 * 64) << "of a file";
   EXPECT_EQ(counts.triangles, 12u);
   EXPECT_EQ(counts.lights, (std::vector{LightType::spot, LightType::directional, LightType::point}));
 }

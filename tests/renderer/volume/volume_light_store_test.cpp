@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "renderer/core/stop.h"
 #include "renderer/volume/volume_light.h"
 #include "tests/renderer/volume/media.h"
 
@@ -80,6 +81,22 @@ TEST(VolumeLightStore, TheLatestUsedAreKeptWithinTheBound) {
   // One that is larger than all may be is given, and not kept.
   asking.input.size = {4, 4, 4};
   EXPECT_TRUE(asking.makes());
+  EXPECT_TRUE(asking.makes());
+}
+
+TEST(VolumeLightStore, WhatWasFinishedWhenAFrameIsStoppedIsKept) { // F11
+  Asking asking;
+  asking.lights = "first volume";
+  EXPECT_TRUE(asking.makes());
+  const Medium* media[]{&asking.medium};
+  asking.input.media = media;
+  const auto stopped = [&] {
+    asking.store.mapOf(VolumeLightKey(asking.input, "second volume", "house"),
+                       []() -> VolumeLight { throw Stopped{}; });
+  };
+  EXPECT_THROW(stopped(), Stopped);
+  EXPECT_FALSE(asking.makes()) << "so that the same frame goes further the next time";
+  asking.lights = "second volume";
   EXPECT_TRUE(asking.makes());
 }
 
