@@ -68,7 +68,7 @@ RendererInfo rendererInfo(std::int64_t target) {
 class CpuDevice : public Device {
  public:
   CpuDevice(const CpuOptions& options, std::int64_t target)
-      : info_(rendererInfo(target)), shared_{{}, cpu::TileStore(options.tileBytes), {}, {}} {}
+      : info_(rendererInfo(target)), shared_{{}, cpu::TileStore(options.tileBytes), {}, {}, options.tileBytes / 2} {}
 
   const RendererInfo& info() const override { return info_; }
 

@@ -50,7 +50,9 @@ CpuFrame::CpuFrame(Shared& shared, const FrameWork& work)
 }
 
 CpuFrame::~CpuFrame() {
-  shared_.storage[survey_.buffer.samples] = std::move(survey_.buffer);
+  if (bytesOf(survey_.buffer) <= shared_.mostStorage) {
+    shared_.storage[survey_.buffer.samples] = std::move(survey_.buffer);
+  }
 }
 
 CameraRaster CpuFrame::camera() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <future>
 #include <map>
 #include <optional>
@@ -20,6 +21,7 @@ struct Shared {
   TileStore tiles;
   RasterScratch scratch;
   std::map<int, DepthBuffer> storage; ///< of earlier frames' surfaces, by samples a pixel: memory to be used again
+  std::size_t mostStorage = 0;        ///< bytes of one of them; larger ones are let go
 };
 
 /// What view casterIds is made from besides: ShowJob's casters and nodes.

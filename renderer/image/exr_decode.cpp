@@ -11,6 +11,7 @@
 #include <cstring>
 #include <exception>
 #include <map>
+#include <new>
 #include <string_view>
 
 #include "renderer/image/image_codec.h"
@@ -170,6 +171,8 @@ Result<std::vector<ExrLayer>> decodeExr(std::span<const std::uint8_t> file, int 
   if (!isExr(file)) return exrProblem(ProblemCode::invalidValue, "This is no EXR.");
   try {
     return readParts(file, maxSide, maxValues);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     return exrProblem(ProblemCode::invalidValue, std::string("The EXR can't be read: ") + error.what() + ".");
   }

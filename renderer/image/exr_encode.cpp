@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstring>
 #include <exception>
+#include <new>
 #include <string>
 #include <variant>
 #include <vector>
@@ -164,6 +165,8 @@ Result<Bytes> encodeExrParts(std::span<const ExrPart> parts, ExrCompression comp
       }
     }
     return stream.take();
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     return Problem{ProblemCode::internal, "", std::string("The EXR could not be written: ") + error.what() + "."};
   }

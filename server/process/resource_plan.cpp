@@ -20,39 +20,45 @@ constexpr std::size_t kMostConnections = 2'048;
 constexpr std::size_t kMostScenes = 65'536;
 constexpr std::size_t kMostJobs = 256;
 
+constexpr std::uint64_t kListening = 64u << 20;        ///< program, threads and heads of the process that listens
+constexpr std::uint64_t kWorkerItself = 80u << 20;     ///< program and threads of a worker
+constexpr std::uint64_t kMemoryForWorker = 400u << 20; ///< below it there are fewer workers
+constexpr std::uint64_t kLeastWorkers = 2;             ///< where there is memory for them
+
 } // namespace
 
 ServeOptions fittedTo(std::uint64_t memoryBytes) {
   ServeOptions options;
+  const std::uint64_t processes =
+      kListening + kWorkerItself * std::clamp<std::uint64_t>(memoryBytes / kMemoryForWorker, 1, kLeastWorkers);
+  const std::uint64_t shared = memoryBytes - std::min(processes, memoryBytes / 3);
   const auto atMost = [&](std::size_t& bytes, std::uint64_t part) {
-    bytes = std::min<std::size_t>(bytes, memoryBytes / part);
+    bytes = std::min<std::size_t>(bytes, shared / part);
   };
-  atMost(options.sceneMemoryBytes, 6);
-  atMost(options.frameMemoryBytes, 7);
-  atMost(options.tracedSceneBytes, 9);
+  atMost(options.frameMemoryBytes, 3);
+  atMost(options.sceneMemoryBytes, 11);
   atMost(options.uploadMemoryBytes, 12);
-  atMost(options.gpuSceneBytes, 20);
-  atMost(options.bundleMemoryBytes, 16);
-  atMost(options.replyMemoryBytes, 16);
-  atMost(options.videoMemoryBytes, 16);
-  atMost(options.replyCacheBytes, 32);
-  atMost(options.tileCacheBytes, 32);
-  atMost(options.lightMapBytes, 32);
-  atMost(options.volumeBytes, 72);
-  options.jobBytes = std::min(options.jobBytes, memoryBytes / 40);
+  atMost(options.tracedSceneBytes, 14);
+  atMost(options.bundleMemoryBytes, 20);
+  atMost(options.replyMemoryBytes, 18);
+  atMost(options.videoMemoryBytes, 24);
+  atMost(options.gpuSceneBytes, 32);
+  atMost(options.replyCacheBytes, 48);
+  atMost(options.tileCacheBytes, 48);
+  atMost(options.lightMapBytes, 48);
+  atMost(options.volumeBytes, 32);
+  options.jobBytes = std::min(options.jobBytes, shared / 64);
   options.maxSceneBytes = std::min(options.maxSceneBytes, options.uploadMemoryBytes / 2);
   return options;
 }
 
 std::size_t usualWorkers(int cores, std::uint64_t memoryBytes) {
   constexpr int kCores = 4;
-  constexpr std::uint64_t kBytes = 400u << 20;
-  const auto wanted = static_cast<std::uint64_t>(std::max(2, cores / kCores));
-  return static_cast<std::size_t>(std::clamp<std::uint64_t>(memoryBytes / kBytes, 1, wanted));
+  const auto wanted = std::max(kLeastWorkers, static_cast<std::uint64_t>(cores / kCores));
+  return static_cast<std::size_t>(std::clamp<std::uint64_t>(memoryBytes / kMemoryForWorker, 1, wanted));
 }
 
 std::uint64_t workerBytes(const ServeOptions& options, std::size_t workers, std::uint64_t memoryBytes) {
-  constexpr std::uint64_t kListening = 64u << 20; ///< program, threads and heads of the process that listens
   const std::uint64_t bundles = keepsScenesInMemory(options) ? options.bundleMemoryBytes + options.jobBytes : 0;
   const std::uint64_t front = kListening + options.uploadMemoryBytes + options.replyMemoryBytes +
                               options.videoMemoryBytes + options.replyCacheBytes + bundles;

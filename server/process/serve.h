@@ -49,7 +49,7 @@ struct ServeOptions {
   std::size_t bundleMemoryBytes = 1ull << 30;
   std::size_t maxSceneBytes = kLimits.maxSceneBytes;
   std::size_t uploadMemoryBytes = 1ull << 30;
-  std::size_t frameMemoryBytes = 4ull << 30;
+  std::size_t frameMemoryBytes = 16ull << 30;
   std::size_t replyMemoryBytes = 1ull << 30;
   std::size_t videoMemoryBytes = 1ull << 30;
   std::size_t replyCacheBytes = 1u << 28;

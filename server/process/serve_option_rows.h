@@ -105,7 +105,9 @@ inline constexpr std::array kLimitRows{
     option("gpu-scene-bytes", &ServeOptions::gpuSceneBytes, kSize,
            "Scenes kept on the graphics device, as 512MB or 2GB; one that was dropped is uploaded again"),
     option("tile-cache-bytes", &ServeOptions::tileCacheBytes, kSize,
-           "Shadow atlases kept for later frames; 0 = every tile is drawn for each frame"),
+           "Shadow atlases kept for later frames, and half as much for samples of pictures; 0 = every tile is drawn "
+           "for each "
+           "frame"),
     option("traced-scene-bytes", &ServeOptions::tracedSceneBytes, kSize,
            "Ray-tracing structures of scenes, the least recently used dropped first"),
     option("light-map-bytes", &ServeOptions::lightMapBytes, kSize,
@@ -122,7 +124,8 @@ inline constexpr std::array kLimitRows{
     option("upload-memory-bytes", &ServeOptions::uploadMemoryBytes, kSize,
            "Bodies of all requests in progress together; 429 beyond it"),
     option("frame-memory-bytes", &ServeOptions::frameMemoryBytes, kSize,
-           "Pictures of all frames in progress together; a frame waits for room, 413 above a worker's share"),
+           "What drawing and encoding take of all frames in progress together: samples, layers, tiles, volumes, "
+           "pictures, files; a frame waits for room, 413 above a worker's share"),
     option("reply-memory-bytes", &ServeOptions::replyMemoryBytes, kSize,
            "Replies that clients are taking, together; 503 for one that finds no room for 5 s, but later frames of a "
            "sequence wait"),

@@ -54,6 +54,18 @@ std::uint64_t memoryLimit() {
   return std::min(machine, memoryGranted("/sys/fs/cgroup", ownGroups.str()).value_or(machine));
 }
 
+std::uint64_t dataWithin(std::uint64_t memoryBytes, const std::string& status) {
+  const auto bytesOf = [&](const std::string& name) -> std::uint64_t {
+    const std::size_t found = status.find("\n" + name + ":");
+    if (found == std::string::npos) return 0;
+    return std::strtoull(status.c_str() + found + name.size() + 2, nullptr, 10) * 1024;
+  };
+  const std::uint64_t data = bytesOf("VmData");
+  const std::uint64_t untouched = data - std::min(data, bytesOf("RssAnon"));
+  const std::uint64_t apart = bytesOf("RssFile") + bytesOf("RssShmem") + memoryBytes / 16;
+  return memoryBytes - std::min(apart, memoryBytes) + untouched;
+}
+
 void boundHeaps(int heaps) {
   const auto unlessSet = [](const char* variable, int parameter, int value) {
     if (std::getenv(variable) == nullptr) mallopt(parameter, value);

@@ -16,6 +16,12 @@ std::uint64_t memoryLimit();
 /// version 1). `root`: where they are mounted. `ownGroups`: the text of /proc/self/cgroup. Nothing = none is set.
 std::optional<std::uint64_t> memoryGranted(const std::filesystem::path& root, const std::string& ownGroups);
 
+/// The most data (RLIMIT_DATA of setrlimit(2), which counts what is reserved, too) with which this process stays within
+/// so many bytes of memory, so that an allocation fails before the process is killed for more. What it has reserved and
+/// never touched, as stacks of threads, comes on top; pages of files come off, and a sixteenth for what is touched of
+/// both later. `status`: the text of /proc/self/status.
+std::uint64_t dataWithin(std::uint64_t memoryBytes, const std::string& status);
+
 /// Large blocks come from the system and go back to it at once. A heap keeps what a frame takes free at its end: pages
 /// that go and come with every frame cost an eighth of a small one. Threads share a few heaps, so
 /// that what all of them keep is bounded. By default (mallopt(3)) the allocator makes eight for each core and

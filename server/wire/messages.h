@@ -27,7 +27,7 @@ struct WorkerOptions {
   std::uint64_t lightMapBytes = 1u << 28;      ///< baked light maps
   std::uint64_t volumeBytes = 1u << 29;        ///< grids of volumes, and the light in them
   std::uint64_t sceneMemoryBytes = 2ull << 30; ///< loaded scenes
-  std::uint64_t frameMemoryBytes = 4ull << 30; ///< pictures of the frames in progress
+  std::uint64_t frameMemoryBytes = 4ull << 30; ///< drawing and encoding the frames in progress
   std::uint64_t maxSceneBytes = kLimits.maxSceneBytes;
   std::uint64_t memoryBytes = 0; ///< of the whole process; 0 = as much as there is
   std::uint64_t vdbBytes = 0;    ///< of the process that reads a VDB file for it; 0 = as much as that allows itself

@@ -97,7 +97,7 @@ void QualityChoices::keep(const std::string& key, const QualityChoice& choice) {
 Result<EvaluationReport> evaluateScene(WorkContext& context, const LoadedScene& scene, const Evaluation& evaluation,
                                        const OrderCall& call, const EvaluationListener& listener) {
   ByteLease memory(context.frameMemory);
-  const std::size_t bytes = evaluationBytes(evaluation, scene.summary.lights.size());
+  const std::size_t bytes = evaluationBytes(evaluation, scene.summary, kindOf(context.renderer.info()));
   if (auto taken = takeMemory(memory, context.frameMemory, bytes, "/spec/width", call); !taken) {
     return std::move(taken).problems();
   }

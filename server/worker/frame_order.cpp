@@ -8,7 +8,6 @@
 #include "protocol/spec/traits.h"
 #include "server/wire/frame_form.h"
 #include "server/wire/sequence_news.h"
-#include "server/worker/frame_memory.h"
 #include "server/worker/orders.h"
 
 namespace gnomon {
@@ -61,6 +60,7 @@ Result<FrameFile> frameFile(Frame frame, ImageFormat format, std::string_view me
   if (pictures->empty()) return Problem{ProblemCode::internal, "", "The frame has no picture.", "", ""};
   frame.report.stages.push_back({"encode", millisecondsSince(start)});
   FrameFile file{std::string(mediaType), {}, frame.report.stages, frame.report.warnings};
+  frame.images.clear(); // before the files are copied
   if (isPicture) {
     file.body = asText(pictures->front().file);
   } else if (mediaType == mediaTypeOf({ReplyForm::multipart, format})) {
@@ -133,8 +133,9 @@ Answer frameOrder(WorkContext& context, const OrderCall& call) {
     quality = *std::move(settled);
     spec = withChoice(spec, *quality);
   }
+  const std::size_t bytes = bytesOf(context, scene, spec, call.order.mediaType == kJson);
   ByteLease memory(context.frameMemory);
-  if (auto taken = takeMemory(memory, context.frameMemory, frameBytes(spec), "/views", call); !taken) {
+  if (auto taken = takeMemory(memory, context.frameMemory, bytes, "/views", call); !taken) {
     return {.problems = taken.problems()};
   }
   std::optional<Result<FrameFile>> file;
@@ -166,7 +167,7 @@ Answer sequenceFrameOrder(WorkContext& context, const OrderCall& call) {
   const auto& scene = std::get<LoadedScene>(loaded);
   const double loadMs = millisecondsSince(start);
   ByteLease memory(context.frameMemory);
-  if (auto taken = takeMemory(memory, context.frameMemory, frameBytes(*spec), "/views", call); !taken) {
+  if (auto taken = takeMemory(memory, context.frameMemory, bytesOf(context, scene, *spec), "/views", call); !taken) {
     return {.problems = taken.problems()};
   }
   auto drawn = context.renderer.render(scene.scene, *spec, TileUse::kept, call.goOn);

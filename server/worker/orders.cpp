@@ -26,11 +26,19 @@ constexpr std::array kOrderTraits{
 
 } // namespace
 
+Problem noMemoryFor(const Presence& order) {
+  if (!order.wasAlone()) {
+    return {ProblemCode::unavailable, "", "Other requests use the memory that this one needs.", "", ""};
+  }
+  return {ProblemCode::tooLarge, "", "The request needs more memory than a worker may use.", "", ""};
+}
+
 Answer carryOut(WorkContext& context, const OrderCall& call) noexcept {
+  const Presence presence(context.atWork);
   try {
     return kOrderTraits[static_cast<std::size_t>(call.order.kind)].carryOut(context, call);
   } catch (const std::bad_alloc&) {
-    return {{{ProblemCode::tooLarge, "", "The request needs more memory than a worker may use.", "", ""}}};
+    return {{noMemoryFor(presence)}};
   } catch (const std::exception& error) {
     logEvent("order", error.what(), call.order.traceId);
   } catch (...) {
@@ -57,7 +65,8 @@ Problem stoppedProblem(std::string_view what, const OrderCall& call) {
 
 Status checkMemory(const ByteBudget& budget, std::size_t bytes, std::string_view pointer) {
   if (bytes <= budget.total()) return Done{};
-  return Problem{ProblemCode::tooLarge, std::string(pointer), "The pictures that this needs are too large together.",
+  return Problem{ProblemCode::tooLarge, std::string(pointer),
+                 "This needs more memory than a frame may take (--frame-memory-bytes).",
                  std::to_string(budget.total()) + " bytes", std::to_string(bytes) + " bytes"};
 }
 
@@ -70,6 +79,12 @@ Status takeMemory(ByteLease& lease, const ByteBudget& budget, std::size_t bytes,
     std::this_thread::sleep_for(kNextTry); // at most a few orders run in a worker
   }
   return Done{};
+}
+
+std::size_t bytesOf(const WorkContext& context, const LoadedScene& scene, const FrameSpec& spec, bool asJson) {
+  const RendererInfo& info = context.renderer.info();
+  const DeviceKind device = spec.device == DeviceChoice::cpu ? DeviceKind::processor : kindOf(info);
+  return frameBytes(spec, scene.summary, device, asJson);
 }
 
 Answer loadOrder(WorkContext& context, const OrderCall& call) {
@@ -92,7 +107,8 @@ Answer planOrder(WorkContext& context, const OrderCall& call) {
   if (!spec) return {.problems = spec.problems()};
   auto scene = sceneOf(context, call);
   if (auto* answer = std::get_if<Answer>(&scene)) return std::move(*answer);
-  if (const auto fits = checkMemory(context.frameMemory, frameBytes(*spec), "/views"); !fits) {
+  const std::size_t bytes = bytesOf(context, std::get<LoadedScene>(scene), *spec);
+  if (const auto fits = checkMemory(context.frameMemory, bytes, "/views"); !fits) {
     return {.problems = fits.problems()};
   }
   const auto device = context.renderer.infoFor(*spec, call.goOn);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -49,6 +50,33 @@ class QualityChoices {
   LruList<Entry> entries_;
 };
 
+/// Orders that a worker carries out at the same time. Any thread.
+struct OrdersAtWork {
+  std::atomic<std::size_t> running{0};
+  std::atomic<std::uint64_t> begun{0}; ///< since the worker's start
+};
+
+/// An order, from its beginning to its end.
+class Presence {
+ public:
+  explicit Presence(OrdersAtWork& orders) : orders_(orders), first_(++orders.running == 1), number_(++orders.begun) {}
+  Presence(const Presence&) = delete;
+  Presence& operator=(const Presence&) = delete;
+  ~Presence() { --orders_.running; }
+
+  /// No other order was carried out beside it so far.
+  bool wasAlone() const { return first_ && orders_.begun == number_; }
+
+ private:
+  OrdersAtWork& orders_;
+  bool first_;
+  std::uint64_t number_;
+};
+
+/// The problem of an order that could not allocate: tooLarge where it had the worker to itself; unavailable where
+/// others, whose memory comes back, were carried out beside it.
+Problem noMemoryFor(const Presence& order);
+
 /// What all orders of a worker share. Outlives them; each part may be used by any thread.
 struct WorkContext {
   RenderThread& renderer;
@@ -57,6 +85,7 @@ struct WorkContext {
   QualityChoices choices;
   CostModel costs;                         ///< learned from the frames drawn here
   std::shared_ptr<LightMapStore> stored{}; ///< choices that outlive the worker, beside light maps; nullptr = none do
+  OrdersAtWork atWork{};
 };
 
 /// An order as it arrived.
@@ -90,6 +119,9 @@ Answer sequenceFrameOrder(WorkContext& context, const OrderCall& call);
 
 /// Calls the one for the order's kind. Nothing that it throws leaves it.
 Answer carryOut(WorkContext& context, const OrderCall& call) noexcept;
+
+/// What a frame of the scene takes on the device that will draw it. `asJson`: as frameBytes.
+std::size_t bytesOf(const WorkContext& context, const LoadedScene& scene, const FrameSpec& spec, bool asJson = false);
 
 /// The order's scene, or the answer that says why it can't be had.
 std::variant<LoadedScene, Answer> sceneOf(WorkContext& context, const OrderCall& call);

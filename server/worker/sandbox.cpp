@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <sys/prctl.h>
@@ -17,6 +19,7 @@
 #include "renderer/core/file_access.h"
 #include "renderer/core/system_calls.h"
 #include "server/system/file_descriptor.h"
+#include "server/system/memory_limit.h"
 #include "server/worker/worker.h"
 
 namespace gnomon {
@@ -114,7 +117,9 @@ Status seal(Seal kind, std::uint64_t memoryBytes) {
   if (const int error = limit(RLIMIT_CORE, 0)) return refused(error);
   if (const int error = limit(RLIMIT_NOFILE, kMostFiles)) return refused(error);
   if (memoryBytes > 0 && allocationsAreBounded()) {
-    if (const int error = limit(RLIMIT_DATA, memoryBytes + memoryBytes / 4)) return refused(error);
+    std::ostringstream status;
+    status << std::ifstream("/proc/self/status").rdbuf();
+    if (const int error = limit(RLIMIT_DATA, dataWithin(memoryBytes, status.str()))) return refused(error);
   }
   if (const int error = dropPrivileges()) return refused(error);
   if (const int error = keepSystemCalls(kind == Seal::drivers ? Duty::draw : Duty::work)) return refused(error);

@@ -28,9 +28,9 @@ Result<bool> confineFiles();
 
 /// Gives up what a worker never needs, for good and for all its threads: no program is executed, no process started,
 /// looked into, scheduled or signalled, no socket opened, no privilege gained or kept; with Seal::full no file opened,
-/// either, and no code made. `memoryBytes`: the most that it should hold; what it may allocate is a quarter more
-/// (RLIMIT_DATA), since not all of that is touched; 0 = as much as there is. A call that is not allowed fails with
-/// EPERM. unavailable where the system refuses.
+/// either, and no code made. `memoryBytes`: above it the process is killed, so that what it may allocate ends before
+/// (dataWithin); 0 = as much as there is. A call that is not allowed fails with EPERM. unavailable where the system
+/// refuses.
 Status seal(Seal kind, std::uint64_t memoryBytes);
 
 } // namespace gnomon

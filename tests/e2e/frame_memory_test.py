@@ -1,0 +1,236 @@
+"""Memory: what a frame is said to take is what it takes; in little memory each frame is a picture or a refusal."""
+
+import contextlib
+import itertools
+import json
+import os
+import struct
+import tempfile
+import threading
+import unittest
+from pathlib import Path
+
+import shipped_server
+from shipped_server import BINARY, SCENES, Server, form, workers_of
+
+MB = 1 << 20
+SUN = {"sun": {"azimuthDegrees": 30, "elevationDegrees": 40}}
+FULL = {"width": 1920, "height": 1080}
+LARGE = {"width": 3840, "height": 2160}
+SANITIZED = shipped_server.SLOW > 1  # which keeps what was freed
+
+
+def volume(index):
+    """A volume over the scene, each a little beside the others."""
+    return {
+        "file": f"v{index}.npy",
+        "box": {"min": [-8 + index, 0, -8], "max": [6 + index, 4, 8]},
+        "transferFunction": [{"value": 0, "extinction": 0}, {"value": 1, "extinction": 0.1}],
+    }
+
+
+def cloud(side, index):
+    """A NumPy file of floats."""
+    header = f"{{'descr': '<f4', 'fortran_order': False, 'shape': ({side}, {side}, {side}), }}"
+    header += " " * (-(len(header) + 11) % 64) + "\n"
+    numbers = struct.pack("<16f", *[((index + i) % 7) / 7 for i in range(16)]) * (side**3 // 16)
+    return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode() + numbers
+
+
+def upload(server, scene="box_on_plane", volumes=0, side=64):
+    parts = [("scene", "scene.glb", (SCENES / f"{scene}.glb").read_bytes())]
+    parts += [("file", f"v{index}.npy", cloud(side, index)) for index in range(volumes)]
+    body, content_type = form(parts)
+    reply = server.ask("POST", "/v1/scenes", body, {"Content-Type": content_type})
+    assert reply.status in (200, 201), reply.body
+    return reply.json()["id"]
+
+
+def memory_of(pid):
+    """Bytes: resident now, and at most since that was last reset."""
+    lines = dict(line.split(":", 1) for line in Path(f"/proc/{pid}/status").read_text().splitlines())
+    return [int(lines[name].split()[0]) * 1024 for name in ("VmRSS", "VmHWM")]
+
+
+def lit(count, **shadow):
+    """Lights of their own directions."""
+    lights = [
+        {"sun": {"azimuthDegrees": 30 + 50 * index, "elevationDegrees": 40}, "angularDiameterDegrees": 2}
+        for index in range(count)
+    ]
+    return {"lights": lights, "shadow": shadow}
+
+
+PLAIN = {"antialiasing": "none"}
+SMOOTH = {"antialiasing": "msaa4x"}
+CASES = [
+    (FULL | PLAIN, "*/*"),
+    (FULL | SMOOTH, "*/*"),
+    (LARGE | PLAIN, "*/*"),
+    (LARGE | SMOOTH, "*/*"),
+    (FULL | PLAIN | {"output": {"format": "png", "pngBits": 16}}, "*/*"),
+    (FULL | PLAIN | {"output": {"format": "exr"}}, "*/*"),
+    (FULL | SMOOTH | {"output": {"format": "exr", "exrPixelType": "float", "exrCompression": "none"}}, "*/*"),
+    (FULL | PLAIN | {"output": {"format": "npy", "arrayColors": "linear"}}, "*/*"),
+    (FULL | PLAIN | {"output": {"format": "npz"}}, "*/*"),
+    (FULL | PLAIN | {"output": {"format": "tiff"}}, "*/*"),
+    (FULL | SMOOTH | {"output": {"format": "jpeg"}}, "*/*"),
+    (FULL | PLAIN | {"output": {"format": "webp"}}, "*/*"),
+    (FULL | SMOOTH | {"views": ["color", "depth", "normal", "shadow"]}, "multipart/mixed"),
+    (FULL | SMOOTH | {"views": ["error"]}, "*/*"),
+    (FULL | PLAIN | {"views": ["color", "position"]}, "multipart/mixed"),
+    (FULL | SMOOTH | lit(4, technique="rayTraced", raySamples=1), "*/*"),
+    (FULL | SMOOTH | lit(4, technique="shadowMap"), "*/*"),
+    (FULL | PLAIN | lit(1, technique="shadowMap", filter={"type": "evsm"}), "*/*"),
+    (FULL | PLAIN | lit(1, technique="shadowMap", size="XLarge") | {"atlas": {"size": 4096, "baseSize": 2048}}, "*/*"),
+    (FULL | PLAIN | {"lights": [SUN], "volumes": [volume(0), volume(1)]}, "*/*"),
+    (FULL | SMOOTH | {"lights": [SUN], "volumes": [volume(0)]}, "*/*"),
+]
+
+
+class Estimates(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        if SANITIZED:
+            raise unittest.SkipTest("a sanitizer's memory is not the server's")
+
+    def estimate(self, server, scene, spec, accept):
+        reply = server.frame(scene, spec, accept)
+        self.assertEqual(reply.status, 413, reply.body[:300])
+        return int(reply.json()["problems"][0]["actual"].split()[0])
+
+    def peak(self, spec, accept, volumes):
+        """What a worker that has drawn nothing but a small frame takes beside for this one."""
+        with Server("--device", "cpu", "--workers", "1", "--tile-cache-bytes", "0", "--request-timeout", "300") as server:
+            scene = upload(server, volumes=volumes)
+            small = {name: value for name, value in spec.items() if name not in ("volumes", "atlas")}
+            self.assertEqual(server.frame(scene, small | {"width": 64, "height": 36}, accept).status, 200)
+            worker = max(workers_of(server), key=lambda pid: memory_of(pid)[0])
+            try:
+                Path(f"/proc/{worker}/clear_refs").write_text("5")
+            except OSError:
+                self.skipTest("the system does not let the highest memory be reset")
+            before = memory_of(worker)[0]
+            reply = server.frame(scene, spec, accept)
+            self.assertEqual(reply.status, 200, reply.body[:300])
+            return memory_of(worker)[1] - before
+
+    def test_a_frame_takes_at_most_what_is_said_and_at_least_half(self):  # F12
+        with Server("--device", "cpu", "--workers", "1", "--frame-memory-bytes", "1MB") as said:
+            scenes = {count: upload(said, volumes=count) for count in (0, 1, 2)}
+            for spec, accept in CASES:
+                with self.subTest(spec=spec, accept=accept):
+                    volumes = len(spec.get("volumes", []))
+                    estimate = self.estimate(said, scenes[volumes], spec, accept)
+                    peak = self.peak(spec, accept, volumes)
+                    if os.environ.get("GNOMON_SHOW"):
+                        print(f"{estimate / MB:8.1f} {peak / MB:8.1f} {estimate / peak:5.2f} {json.dumps(spec)[:150]}")
+                    self.assertGreaterEqual(estimate, peak)
+                    self.assertLessEqual(estimate, 2 * peak + 24 * MB)
+
+
+@contextlib.contextmanager
+def memory_group(limit):
+    """A control group of its own with so much memory; None where this system lets no test make one."""
+    name = f"gnomon-test-{os.getpid()}-{limit}"
+    for top, setting in ((Path("/sys/fs/cgroup/memory"), "memory.limit_in_bytes"), (Path("/sys/fs/cgroup"), "memory.max")):
+        group = top / name
+        try:
+            group.mkdir()
+            (group / setting).write_text(str(limit))
+        except OSError:
+            with contextlib.suppress(OSError):
+                group.rmdir()
+            continue
+        try:
+            yield group
+        finally:
+            for _ in range(100):
+                with contextlib.suppress(OSError):
+                    group.rmdir()
+                    break
+                threading.Event().wait(0.05)
+        return
+    yield None
+
+
+@contextlib.contextmanager
+def server_within(group, *flags):
+    """A server whose processes are all in the group."""
+    with tempfile.TemporaryDirectory() as directory:
+        started = Path(directory) / "gnomon"
+        started.write_text(f'#!/bin/sh\necho $$ > "{group}/cgroup.procs" && exec "{BINARY}" "$@"\n')
+        started.chmod(0o755)
+        before, shipped_server.BINARY = shipped_server.BINARY, str(started)
+        try:
+            server = Server(*flags)
+        finally:
+            shipped_server.BINARY = before
+        with server:
+            yield server
+
+
+SIZES = [(640, 360), (1920, 1080), (2048, 2048), (3900, 2193), (4500, 2531)]
+FORMATS = [{"format": "png"}, {"format": "exr"}, {"format": "npz"}]
+
+
+class MemoryGroups(unittest.TestCase):
+    def check(self, limit):
+        with memory_group(limit) as group:
+            if group is None:
+                self.skipTest("no control group for memory can be made here")
+            with server_within(group, "--device", "cpu") as server:
+                self.draw_all(server)
+
+    def draw_all(self, server):
+        scene, cloudy = upload(server), upload(server, volumes=2, side=32)
+        specs = [
+            {"width": width, "height": height, "antialiasing": antialiasing, "output": output}
+            for (width, height), antialiasing, output in itertools.product(SIZES, ("none", "msaa4x"), FORMATS)
+        ]
+        clouds = [spec | {"lights": [SUN], "volumes": [volume(0), volume(1)]} for spec in specs[:12:3]]
+        calls = [(scene, spec) for spec in specs] + [(cloudy, spec) for spec in clouds]
+        workers = workers_of(server)
+        alone = {json.dumps(call): server.frame(*call) for call in calls}
+        for call, reply in alone.items():
+            self.assertIn(reply.status, (200, 413), f"{call} {reply.body[:500]}")
+        self.assertEqual({alone[json.dumps((scene, spec))].status for spec in specs[:6]}, {200}, "small ones")
+        self.assertIn(413, {reply.status for reply in alone.values()})
+        beside = {}
+        threads = []
+        for index, (of, spec) in enumerate(calls):
+            spec = spec | {"exposure": 0.5 + index / 100}  # or it would be the picture of before
+            threads.append(threading.Thread(target=lambda c=(of, spec), i=index: beside.update({i: server.frame(*c)})))
+        for first in range(0, len(threads), 12):
+            for thread in threads[first : first + 12]:
+                thread.start()
+            for thread in threads[first : first + 12]:
+                thread.join()
+        for index, call in enumerate(calls):
+            reply, before = beside[index], alone[json.dumps(call)]
+            if reply.status in (429, 503):
+                self.assertGreaterEqual(int(reply.headers["Retry-After"]), 1)
+            else:
+                self.assertEqual(reply.status, before.status, f"{call} {reply.body[:500]}")
+        self.assertEqual(workers_of(server), workers, "a worker was replaced:\n" + server.log_text())
+
+    def test_in_half_a_gigabyte_each_is_a_picture_or_a_refusal(self):  # F12
+        self.check(512 * MB)
+
+    def test_in_a_gigabyte_each_is_a_picture_or_a_refusal(self):  # F12
+        self.check(1024 * MB)
+
+
+class Volumes(unittest.TestCase):
+    def test_more_volumes_than_a_request_has_time_for_are_refused_at_once(self):  # F11
+        with Server("--device", "cpu", "--request-timeout", "5") as server:
+            scene = upload(server, volumes=16)
+            spec = {"width": 320, "height": 240, "lights": [SUN], "volumes": [volume(index) for index in range(16)]}
+            reply = server.frame(scene, spec)
+            self.assertIn(reply.status, (200, 413), reply.body[:500])
+            if reply.status == 413:
+                self.assertIn("seconds", reply.json()["problems"][0]["actual"])
+
+
+if __name__ == "__main__":
+    unittest.main()
