@@ -33,7 +33,7 @@ TEST(RequestLog, HoldsNoSignatureThatAReaderCouldUse) {
 TEST(RequestLog, HoldsNoSignatureThatTheClientHasSpeltOtherwise) {
   const std::string path = "/v1/scenes/x/frame?width=9&";
   for (const char* spelling : {"%73ignature=0123", "signature%3d0123", "SIGNATURE=0123", "si%67n%61ture=0123",
-                               "%2573ignature=0123", "%25%37%33ignature=0123", "%2%353%37%33ignature=0123"}) {
+                               "%2573ignature=0123", "%25%37%33ignature=0123", "%2%35%37%33ignature=0123"}) {
     RequestRecord record;
     record.target = path + spelling + "&height=9";
     const auto line = nlohmann::json::parse(requestLine(record, {}, 1));
