@@ -133,11 +133,17 @@ int statusOf(ProblemCode code, RequestPart read) {
   return read == RequestPart::whole ? row.whole : read == RequestPart::head ? row.head : row.body;
 }
 
-HttpReply problemReply(const Problems& problems, std::string_view instance, const ProblemReplyOptions& options) {
+const Problems& atLeastOne(const Problems& problems) {
+  static const Problems kUnknown{{ProblemCode::internal, "", "It failed without a reason.", "", ""}};
+  return problems.empty() ? kUnknown : problems;
+}
+
+HttpReply problemReply(const Problems& reasons, std::string_view instance, const ProblemReplyOptions& options) {
+  const Problems& problems = atLeastOne(reasons);
   HttpReply reply;
   reply.status = statusOf(problems.front().code, options.read);
   reply.contentType = "application/problem+json";
-  reply.body = problemJson(problems, reply.status, instance).dump();
+  reply.body = jsonText(problemJson(problems, reply.status, instance));
   reply.headers.emplace_back("Cache-Control", "no-store");
   if (reply.status == 429 || reply.status == 503) {
     reply.headers.emplace_back("Retry-After", std::to_string(options.retryAfterSeconds));

@@ -13,6 +13,7 @@
 #include "protocol/json/json_codec.h"
 #include "protocol/report/frame_report.h"
 #include "server/system/byte_budget.h"
+#include "server/system/shared_bytes.h"
 
 namespace gnomon {
 
@@ -63,25 +64,6 @@ constexpr RefusalReason refusalOfStatus(int status) {
   return RefusalReason::none;
 }
 
-/// The bytes of a reply. Copies share them, so that what is kept or drawn once is sent to many clients from one place.
-class ReplyBody {
- public:
-  ReplyBody() = default;
-  ReplyBody(std::string bytes) : bytes_(std::make_shared<const std::string>(std::move(bytes))) {}
-  ReplyBody(std::string_view bytes) : ReplyBody(std::string(bytes)) {}
-  ReplyBody(const char* text) : ReplyBody(std::string(text)) {}
-
-  std::string_view view() const { return bytes_ ? std::string_view(*bytes_) : std::string_view(); }
-  operator std::string_view() const { return view(); }
-  std::size_t size() const { return view().size(); }
-  bool empty() const { return view().empty(); }
-
-  friend bool operator==(const ReplyBody& a, std::string_view b) { return a.view() == b; }
-
- private:
-  std::shared_ptr<const std::string> bytes_;
-};
-
 /// Sends a piece of a body at once; false = the client is gone, and nothing more need be made.
 using BodySink = std::function<bool(std::string_view)>;
 
@@ -96,7 +78,7 @@ struct StreamResult {
 struct HttpReply {
   int status = 200;
   std::string contentType; ///< empty = no body
-  ReplyBody body;
+  SharedBytes body;
   /// Instead of `body`: makes it while it is sent, on the connection's thread. The end of the connection marks its end.
   std::function<void(const BodySink&)> stream;
   std::shared_ptr<const StreamResult> streamed; ///< of `stream`; nullptr = nothing is known of it
@@ -133,6 +115,9 @@ struct ProblemReplyOptions {
   int retryAfterSeconds = 1;                   ///< sent with status 429 and 503
   RefusalReason refusal = RefusalReason::none; ///< for metrics
 };
+
+/// The problems, or, where a list has none, one that says so: what refuses always has a reason.
+const Problems& atLeastOne(const Problems& problems);
 
 /// All problems as application/problem+json (RFC 9457), with the status of the first. `instance` is the request's id.
 HttpReply problemReply(const Problems& problems, std::string_view instance, const ProblemReplyOptions& options = {});

@@ -49,17 +49,6 @@ Problem diskProblem(const char* what) {
   return {ProblemCode::unavailable, "", "The scene store can't read or write its disk.", "", ""};
 }
 
-/// A file's bytes, piece by piece.
-void copyBytes(const FileDescriptor& file, const FileSink& sink) {
-  Bytes piece(1 << 20);
-  off_t at = 0;
-  ssize_t count = 0;
-  while ((count = ::pread(file.get(), piece.data(), piece.size(), at)) > 0) {
-    sink(std::span(piece).first(static_cast<std::size_t>(count)));
-    at += count;
-  }
-}
-
 /// How exactly the time of a scene's last use is kept.
 std::chrono::milliseconds resolutionFor(std::chrono::seconds age) {
   constexpr std::chrono::milliseconds kUsual = std::chrono::minutes(1);
@@ -128,9 +117,8 @@ class DirectoryBackend final : public SceneBackend {
   }
 
   std::optional<std::string> summary(const std::string& id) override {
-    const auto bytes = readWhole(pathOf(id, kSummary), kMaxSummaryBytes);
-    if (!bytes) return std::nullopt;
-    return std::string(bytes->begin(), bytes->end());
+    const FileDescriptor file = openRegular(pathOf(id, kSummary), O_RDONLY);
+    return file ? readText(file, kMaxSummaryBytes) : std::nullopt;
   }
 
   void keepSummary(const std::string& id, const std::string& summary) override {
@@ -189,7 +177,7 @@ class DirectoryBackend final : public SceneBackend {
   }
 
   /// Opening looks the name up again where a shared file system would answer access(2) from its cache.
-  FileDescriptor openBundle(const std::string& id) const { return openRegular(pathOf(id, kBundle)); }
+  FileDescriptor openBundle(const std::string& id) const { return openRegular(pathOf(id, kBundle), O_RDONLY); }
 
   /// Reads the whole directory; damaged bundles have bytes, too. `without`: scenes whose bundles don't count. While the
   /// directory can't be read: what was counted last.
@@ -213,7 +201,7 @@ class DirectoryBackend final : public SceneBackend {
   /// Through to the disk, the bundle first: no summary is ever left without one. Nothing is left where the disk
   /// refuses.
   Status write(const std::string& id, const FileDescriptor& bundle, const std::string& summary) {
-    if (!placeFile(pathOf(id, kBundle), [&](const FileSink& sink) { copyBytes(bundle, sink); }) ||
+    if (!placeFile(pathOf(id, kBundle), [&](const FileSink& sink) { eachPiece(bundle, sink); }) ||
         !syncDirectory(path_)) {
       return diskProblem("A scene could not be written.");
     }

@@ -1,12 +1,12 @@
 #include "server/scenes/redis_backend.h"
 
 #include <algorithm>
-#include <charconv>
 #include <functional>
 
 #include "protocol/base/scene_bundle.h"
 #include "server/scenes/redis_scripts.h"
 #include "server/system/log.h"
+#include "server/system/numbers.h"
 #include "server/wire/bundle.h"
 
 namespace gnomon {
@@ -169,10 +169,8 @@ StoreSize RedisBackend::size() {
   const auto replies = redis_->pipeline({{"ZCARD", kScenesKey}, {"GET", kBytesKey}}, storeCall());
   const std::lock_guard lock(mutex_);
   if (!replies) return size_;
-  const std::string& bytes = replies->back().text;
-  size_.scenes = static_cast<std::size_t>(replies->front().integer);
-  size_.bytes = 0;
-  std::from_chars(bytes.data(), bytes.data() + bytes.size(), size_.bytes);
+  size_.scenes = static_cast<std::size_t>(std::max<std::int64_t>(replies->front().integer, 0));
+  size_.bytes = numberIn<std::uint64_t>(replies->back().text).value_or(0);
   return size_;
 }
 

@@ -73,7 +73,7 @@ Result<bool> writeAndCommit(redis::Redis& redis, const RedisUpload& upload, cons
 } // namespace
 
 std::uint64_t RedisParts::count() const {
-  return (bytes + kPartBytes - 1) / kPartBytes;
+  return bytes / kPartBytes + (bytes % kPartBytes > 0 ? 1 : 0);
 }
 
 RedisParts newParts(std::uint64_t bytes) {

@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <fcntl.h>
 #include <filesystem>
-#include <sys/stat.h>
 #include <system_error>
 #include <vector>
 
@@ -44,18 +43,18 @@ LightMapDirectory::LightMapDirectory(std::string path, std::size_t budgetBytes)
 FileDescriptor LightMapDirectory::open(const std::string& key) {
   if (!isLightMapKey(key)) return {};
   const std::string path = pathOf(key);
-  FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+  FileDescriptor file = openRegular(path, O_RDONLY);
   std::error_code gone;
   if (file) std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now(), gone);
   return file;
 }
 
 void LightMapDirectory::write(const std::string& key, const FileDescriptor& lightMap) {
-  const auto bytes = readFile(lightMap, budgetBytes_);
-  if (!isLightMapKey(key) || !bytes) return;
+  const auto bytes = sizeOf(lightMap);
+  if (!isLightMapKey(key) || !bytes || *bytes > budgetBytes_) return;
   std::error_code error;
   std::filesystem::create_directories(path_, error);
-  if (!placeFile(pathOf(key), [&](const FileSink& sink) { sink(*bytes); })) {
+  if (!placeFile(pathOf(key), [&](const FileSink& sink) { eachPiece(lightMap, sink); })) {
     const std::string reason = std::error_code(errno, std::generic_category()).message();
     logEvent("store", "A light map could not be written: " + reason + ".");
   }
@@ -110,9 +109,9 @@ FileDescriptor RedisLightMaps::open(const std::string& key) {
 }
 
 void RedisLightMaps::write(const std::string& key, const FileDescriptor& lightMap) {
-  struct stat status {};
-  if (!isLightMapKey(key) || ::fstat(lightMap.get(), &status) != 0 || status.st_size <= 0) return;
-  const RedisParts parts = newParts(static_cast<std::uint64_t>(status.st_size));
+  const auto bytes = sizeOf(lightMap);
+  if (!isLightMapKey(key) || !bytes || *bytes == 0) return;
+  const RedisParts parts = newParts(*bytes);
   if (parts.bytes > budgetBytes_) return;
   const std::string count = std::to_string(parts.count());
   if (writeParts(*redis_, parts, lightMap, kForMap)) {

@@ -3,12 +3,10 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <string_view>
 
-#include "protocol/base/scene_bundle.h"
 #include "server/redis/redis.h"
 #include "server/system/file_descriptor.h"
-#include "server/wire/bundle.h"
+#include "server/wire/messages.h"
 
 namespace gnomon {
 
@@ -30,13 +28,6 @@ class StoredLightMaps {
   /// Removes what writes of servers that died have left.
   virtual void cleanUp() = 0;
 };
-
-/// "<scene's id>-<64 lower-case hexadecimal digits>": what a worker names must not lead out of its store.
-inline bool isLightMapKey(std::string_view key) {
-  constexpr std::size_t kId = 64;
-  return key.size() == 2 * kId + 1 && isSceneId(key.substr(0, kId)) && key[kId] == '-' &&
-         isSceneId(key.substr(kId + 1));
-}
 
 /// Light maps on disk, one file each, "<key>.map". What the disk refuses is logged.
 class LightMapDirectory : public StoredLightMaps {

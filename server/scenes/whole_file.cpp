@@ -39,9 +39,8 @@ void lockShared(int fd) {
 
 /// For an exclusive lock, which NFS gives on what may be written only.
 FileDescriptor openToLock(const std::string& path) {
-  FileDescriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW));
-  if (file || errno != EACCES) return file;
-  return FileDescriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+  FileDescriptor file = openRegular(path, O_RDWR);
+  return file || errno != EACCES ? std::move(file) : openRegular(path, O_RDONLY);
 }
 
 /// A file that has not been used for so long, locked: no reader can begin to use it. Empty where it is none.
@@ -84,18 +83,10 @@ Temporary makeTemporary(const std::filesystem::path& directory) {
 
 } // namespace
 
-FileDescriptor openRegular(const std::string& path) {
-  FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)); // a FIFO would wait for its writer
-  struct stat status {};
-  if (!file || ::fstat(file.get(), &status) != 0 || S_ISREG(status.st_mode)) return file;
-  errno = EINVAL;
-  return {};
-}
-
 FileDescriptor openUsed(const std::string& path, std::chrono::milliseconds resolution) {
   constexpr int kTries = 3; // one that was removed between open and lock may be there again
   for (int i = 0; i < kTries; ++i) {
-    FileDescriptor file = openRegular(path);
+    FileDescriptor file = openRegular(path, O_RDONLY);
     if (!file) return file;
     lockShared(file.get());
     struct stat status {};
@@ -132,9 +123,10 @@ bool syncDirectory(const std::string& path) {
 }
 
 std::optional<Bytes> readWhole(const std::string& path, std::size_t most) {
-  const FileDescriptor file = openRegular(path);
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)); // a pipe waits for its writer
   struct stat status {};
-  if (!file || ::fstat(file.get(), &status) != 0 || static_cast<std::size_t>(status.st_size) > most) {
+  if (!file || ::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode) ||
+      static_cast<std::size_t>(status.st_size) > most) {
     return std::nullopt;
   }
   Bytes bytes(static_cast<std::size_t>(status.st_size));

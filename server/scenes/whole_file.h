@@ -18,10 +18,6 @@ namespace gnomon {
 // Several processes use and remove these: a file's time of change says when it was used last, and a shared lock (flock)
 // that it is in use.
 
-/// Opens a regular file for reading, and waits for nothing. Empty, with errno, where there is none; EINVAL where it is
-/// no regular file.
-FileDescriptor openRegular(const std::string& path);
-
 /// Opens a regular file for reading, holds a shared lock on it until every copy of the descriptor is closed, and marks
 /// it as used now, unless its mark is younger than `resolution`. Empty, with errno, where there is none.
 FileDescriptor openUsed(const std::string& path, std::chrono::milliseconds resolution);

@@ -3,11 +3,13 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 
 #include "protocol/base/bytes.h"
+#include "server/system/shared_bytes.h"
 
 namespace gnomon {
 
@@ -64,8 +66,19 @@ class MemoryFileWriter {
 
 std::optional<FileDescriptor> memoryFile(std::span<const std::uint8_t> bytes);
 
+/// The bytes of a file that MemoryFileWriter has made, in whichever process: large ones where they are, without a copy.
+/// Nothing where it is no memory file, may still change, is not in memory as a whole, or has more than `most` bytes.
+std::optional<SharedBytes> sealedBytes(const FileDescriptor& file, std::size_t most);
+
+/// Opens a regular file by its own name, and waits for nothing. Empty, with errno, where there is none: what else has
+/// the name (a pipe, a device, a link) is ENOENT.
+FileDescriptor openRegular(const std::string& path, int flags);
+
 /// Fills `room` with the bytes from `offset` on; false where the file has fewer, or can't be read.
 bool readAt(const FileDescriptor& file, std::uint64_t offset, std::span<std::uint8_t> room);
+
+/// Calls with the bytes of a file, from its begin on, some at a time; false where they can't be read.
+bool eachPiece(const FileDescriptor& file, const std::function<void(std::span<const std::uint8_t>)>& take);
 
 /// Writes all bytes where the file's offset is; false, with errno, where the system refuses.
 bool writeAll(const FileDescriptor& file, std::span<const std::uint8_t> bytes);

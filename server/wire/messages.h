@@ -91,6 +91,9 @@ struct ToWorker {
   std::optional<LightMapFound> lightMap{};
 };
 
+/// The most bytes that an order's result may have.
+inline constexpr std::size_t kMostResultBytes = 0x7fffffff;
+
 /// The result of an order. Its bytes go along, unless there are problems or it was sent as events.
 struct Outcome {
   std::uint64_t number = 0;
@@ -124,6 +127,14 @@ struct Refusal {
   std::vector<Problem> problems{};
 };
 
+/// Whether it is the name of a light map: "<scene's id>-<64 lower-case hexadecimal digits>".
+bool isLightMapKey(std::string_view key);
+
+/// The scene's id in it. REQUIRES: isLightMapKey(key).
+inline std::string_view sceneOfLightMap(std::string_view key) {
+  return key.substr(0, key.find('-'));
+}
+
 /// Asks for a stored light map.
 struct LightMapRequest {
   std::uint64_t number = 0;
@@ -150,6 +161,13 @@ std::string textOf(const ToFront& message);
 
 /// Nothing where the text is no such message: unknown members, values of other types, none or two of the members.
 std::optional<ToWorker> readToWorker(std::string_view text);
+
+/// The same, and where a value is none that a worker has: a stage that is no name, a time or a count without a bound, a
+/// refusal without a problem, a key of no light map, an event that is not one line of JSON.
 std::optional<ToFront> readToFront(std::string_view text);
+
+/// Whether these can be times of a frame's stages: names as a header may hold them, and at most a few.
+bool areStages(const std::vector<StageTime>& stages);
+inline constexpr double kMostMilliseconds = 1e12; ///< of a time that is told
 
 } // namespace gnomon

@@ -38,6 +38,13 @@ TEST(ProblemReply, EveryKindHasItsStatus) {
   EXPECT_EQ(expected.size(), static_cast<std::size_t>(ProblemCode::internal) + 1);
 }
 
+TEST(ProblemReply, AListWithoutAProblemIsAMistakeOfTheServersOwn) {
+  const HttpReply reply = problemReply({}, "request-1");
+  EXPECT_EQ(reply.status, 500);
+  EXPECT_EQ(nlohmann::json::parse(reply.body.view())["problems"].size(), 1u);
+  EXPECT_FALSE(reply.problem.empty());
+}
+
 TEST(ProblemReply, HoldsEveryProblemAndIsNeverCached) {
   const HttpReply reply = problemReply({{ProblemCode::invalidValue, "/width", "Too wide.", "1..8192", "9000"},
                                         {ProblemCode::invalidValue, "/height", "Too high.", "", "\xff"}},

@@ -52,6 +52,34 @@ class SceneStoreTest : public ::testing::Test {
   fs::path directory_;
 };
 
+TEST_F(SceneStoreTest, APipeOrALinkWithTheNameOfASceneIsNone) {
+  const auto store = open(directory_);
+  put(*store, scene(1));
+  ASSERT_EQ(::mkfifo(path(scene(2).id, ".bundle").c_str(), 0600), 0);
+  fs::create_symlink(path(scene(1).id, ".bundle"), path(scene(3).id, ".bundle"));
+  for (const PackedBundle& none : {scene(2), scene(3)}) {
+    const auto bundle = store->bundle(none.id); // waits for no writer
+    ASSERT_FALSE(bundle);
+    EXPECT_EQ(bundle.problems()[0].code, ProblemCode::notFound);
+    EXPECT_FALSE(store->contains(none.id));
+    EXPECT_FALSE(store->use(none.id));
+  }
+  fs::remove(path(scene(1).id, ".json"));
+  ASSERT_EQ(::mkfifo(path(scene(1).id, ".json").c_str(), 0600), 0);
+  EXPECT_FALSE(store->summary(scene(1).id));
+  EXPECT_TRUE(put(*store, scene(2))) << "an upload takes its place";
+  EXPECT_TRUE(store->bundle(scene(2).id));
+}
+
+TEST_F(SceneStoreTest, APipeWithTheNameOfALightMapIsNone) {
+  LightMapDirectory maps(directory_, 1 << 20);
+  const std::string key = scene(1).id + "-" + scene(2).id;
+  ASSERT_EQ(::mkfifo(path(key, ".map").c_str(), 0600), 0);
+  EXPECT_FALSE(maps.open(key));
+  maps.write(key, *memoryFile(Bytes(100, 'x')));
+  EXPECT_EQ(readFile(maps.open(key), 100), Bytes(100, 'x'));
+}
+
 TEST_F(SceneStoreTest, FindsItsScenesAgain) {
   put(*open(directory_), scene(1));
   const auto store = open(directory_);
@@ -162,13 +190,6 @@ TEST_F(SceneStoreTest, ADirectoryThatIsAwayIsNoEmptyStore) {
   EXPECT_TRUE(store->state().isReachable);
   EXPECT_EQ(store->page("", 10)->ids, std::vector{scene(1).id});
   EXPECT_TRUE(store->remove(scene(1).id));
-}
-
-TEST_F(SceneStoreTest, AFifoInTheDirectoryHoldsNoOneUp) {
-  const auto store = open(directory_);
-  for (const char* ending : {".bundle", ".json"}) ASSERT_EQ(::mkfifo(path(scene(1).id, ending).c_str(), 0600), 0);
-  EXPECT_EQ(codeOf(store->use(scene(1).id)), ProblemCode::unavailable);
-  EXPECT_FALSE(store->summary(scene(1).id));
 }
 
 TEST_F(SceneStoreTest, ScenesThatAreOldAllAtOnceStayForATenthOfTheirAgeMore) {

@@ -1,9 +1,14 @@
+#include <cerrno>
 #include <csignal>
+#include <fcntl.h>
+#include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <sys/eventfd.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
 
@@ -48,6 +53,67 @@ TEST(MemoryFile, TwoDescriptorsReadIndependently) {
 
 TEST(MemoryFile, WhatIsNoFileCannotBeRead) {
   EXPECT_FALSE(readFile(FileDescriptor(), 10));
+}
+
+/// A memory file of so many zeros with these seals.
+FileDescriptor fileSealed(int seals, std::size_t bytes) {
+  FileDescriptor file(::memfd_create("test", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  EXPECT_TRUE(writeAll(file, Bytes(bytes, 0)));
+  EXPECT_EQ(::fcntl(file.get(), F_ADD_SEALS, seals), 0);
+  return file;
+}
+
+constexpr int kAllSeals = F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE;
+constexpr std::size_t kMuch = 1 << 20;
+
+TEST(SealedBytes, AreThoseOfTheFileEvenOnceItIsClosed) {
+  for (const std::size_t size : {std::size_t{0}, std::size_t{3}, kMuch}) {
+    const Bytes written(size, 'x');
+    auto file = memoryFile(written);
+    const auto bytes = sealedBytes(*file, size);
+    file.reset();
+    ASSERT_TRUE(bytes) << size;
+    EXPECT_EQ(*bytes, asText(written));
+    const SharedBytes copy = *bytes;
+    EXPECT_EQ(copy.view().data(), bytes->view().data());
+  }
+  EXPECT_TRUE(sealedBytes(fileSealed(kAllSeals, kMuch), kMuch));
+}
+
+TEST(SealedBytes, AreNotThoseOfAFileThatMayChangeOrIsLarger) {
+  for (const std::size_t size : {std::size_t{3}, kMuch}) {
+    EXPECT_FALSE(sealedBytes(*memoryFile(Bytes(size, 'x')), size - 1));
+    for (const int missing : {F_SEAL_SHRINK, F_SEAL_GROW, F_SEAL_WRITE})
+      EXPECT_FALSE(sealedBytes(fileSealed(kAllSeals & ~missing, size), kMuch)) << missing;
+  }
+}
+
+TEST(SealedBytes, AreNotThoseOfAnythingElse) {
+  Pipe pipe;
+  EXPECT_FALSE(sealedBytes(pipe.reading, kMuch));
+  EXPECT_FALSE(sealedBytes(FileDescriptor(::eventfd(1, 0)), kMuch));
+  EXPECT_FALSE(sealedBytes(FileDescriptor(::open("/proc/self/exe", O_RDONLY)), std::size_t{1} << 40));
+  EXPECT_FALSE(sealedBytes(FileDescriptor(), kMuch));
+  const FileDescriptor hollow(::memfd_create("test", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  ASSERT_EQ(::ftruncate(hollow.get(), kMuch), 0);
+  ASSERT_EQ(::fcntl(hollow.get(), F_ADD_SEALS, kAllSeals), 0);
+  EXPECT_FALSE(sealedBytes(hollow, kMuch)) << "its memory would have to be found while it is sent";
+}
+
+TEST(OpenRegular, OpensFilesAloneAndWaitsForNothing) {
+  std::string folder = (fs::temp_directory_path() / "gnomon-open-XXXXXX").string();
+  ASSERT_NE(::mkdtemp(folder.data()), nullptr);
+  const auto errorOf = [&](const std::string& name) {
+    errno = 0;
+    return openRegular(folder + "/" + name, O_RDONLY) ? 0 : errno;
+  };
+  std::ofstream(folder + "/file") << "text";
+  fs::create_symlink(folder + "/file", folder + "/link");
+  fs::create_directory(folder + "/folder");
+  ASSERT_EQ(::mkfifo((folder + "/pipe").c_str(), 0600), 0);
+  EXPECT_EQ(errorOf("file"), 0);
+  for (const char* other : {"link", "folder", "pipe", "nothing"}) EXPECT_EQ(errorOf(other), ENOENT) << other;
+  fs::remove_all(folder);
 }
 
 class MemoryGranted : public ::testing::Test {

@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <thread>
 
+#include "protocol/cost/frame_cost.h"
 #include "server/system/file_descriptor.h"
 #include "server/wire/messages.h"
 
@@ -133,9 +134,9 @@ TEST(Messages, ProblemsAndStagesArriveWhole) {
 }
 
 TEST(Messages, TextThatIsNoUtf8IsReplaced) {
-  const auto read = readToFront(textOf(ToFront{.event = OrderEvent{1, "row", "\xff"}}));
+  const auto read = readToFront(textOf(ToFront{.event = OrderEvent{1, "row", "\"\xff\""}}));
   ASSERT_TRUE(read && read->event);
-  EXPECT_EQ(read->event->data, "?");
+  EXPECT_EQ(read->event->data, "\"?\"");
 }
 
 TEST(Messages, WhatIsNoneIsRefused) {
@@ -145,6 +146,47 @@ TEST(Messages, WhatIsNoneIsRefused) {
     EXPECT_FALSE(readToWorker(text)) << text;
   }
   EXPECT_FALSE(readToFront("{\"cancel\":{\"number\":1}}"));
+}
+
+TEST(Messages, WhatNoWorkerSaysIsNone) {
+  const auto isRead = [](const ToFront& message) { return readToFront(textOf(message)).has_value(); };
+  const auto stages = [&](std::vector<StageTime> all) {
+    return isRead({.outcome = Outcome{.stages = std::move(all)}});
+  };
+  EXPECT_TRUE(stages({{"shade", 1}, {"encode", 0}}));
+  EXPECT_FALSE(stages({{"shade\r\nSet-Cookie: a=b", 1}}));
+  EXPECT_FALSE(stages({{"", 1}}));
+  EXPECT_FALSE(stages({{"shade", -1}}));
+  EXPECT_FALSE(stages({{"shade", 1e308}}));
+  std::vector<StageTime> many;
+  for (char c = 'a'; c <= 'z'; ++c)
+    for (char d : {'a', 'b', 'c'}) many.push_back({std::string{c, d}, 1});
+  EXPECT_FALSE(stages(std::move(many)));
+  EXPECT_FALSE(isRead({.outcome = Outcome{.retryAfterSeconds = -1}}));
+  EXPECT_FALSE(isRead({.refusal = Refusal{}})) << "a refusal has a reason";
+  EXPECT_TRUE(isRead({.event = OrderEvent{1, "row", R"({"a":"b\nc"})"}}));
+  EXPECT_FALSE(isRead({.event = OrderEvent{1, "row", "{}\n\nevent: problem\ndata: {}"}}));
+  EXPECT_FALSE(isRead({.event = OrderEvent{1, "row", "text"}}));
+  const std::string key = std::string(64, 'a') + "-" + std::string(64, 'b');
+  EXPECT_TRUE(isRead({.made = LightMapMade{key}}));
+  for (const std::string& other : {std::string("a-b"), "../" + key, key + "0", key + "\n"}) {
+    EXPECT_FALSE(isRead({.made = LightMapMade{other}})) << other;
+    EXPECT_FALSE(isRead({.request = LightMapRequest{1, other}})) << other;
+  }
+}
+
+TEST(Messages, ABeatHasOneBoundedFactorForEachPartOfAFrame) {
+  const auto isRead = [](const Beat& beat) { return readToFront(textOf(ToFront{.beat = beat})).has_value(); };
+  const std::vector<double> usual(kFrameParts, 1e-6);
+  EXPECT_TRUE(isRead({.costFactors = usual}));
+  for (const double factor : {-1.0, 1e300}) {
+    std::vector<double> factors = usual;
+    factors.back() = factor;
+    EXPECT_FALSE(isRead({.costFactors = factors})) << factor;
+  }
+  EXPECT_FALSE(isRead({.costFactors = std::vector<double>(kFrameParts - 1, 1e-6)}));
+  EXPECT_FALSE(isRead({.scenes = ~0ull, .costFactors = usual}));
+  EXPECT_FALSE(isRead({.reusedMeshes = ~0ull, .costFactors = usual}));
 }
 
 } // namespace
