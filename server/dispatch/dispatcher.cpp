@@ -116,6 +116,7 @@ TaskResult Dispatcher::run(Task task, const std::function<bool()>& gone, const T
     ticket->changed.wait_until(lock, std::min(deadline, Clock::now() + kPause),
                                [&] { return ticket->state == Ticket::State::done || !ticket->events.empty(); });
     const auto arrived = std::exchange(ticket->events, {});
+    ticket->eventBytes = 0;
     const bool done = ticket->state == Ticket::State::done;
     lock.unlock();
     if (events) std::for_each(arrived.begin(), arrived.end(), events);

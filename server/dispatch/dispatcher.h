@@ -115,6 +115,12 @@ class Dispatcher {
   bool startWorker(Slot& slot);
   void listen(Slot& slot);
   bool take(Slot& slot, Packet packet);
+  void takeBeat(Slot& slot, const Beat& beat);
+  bool takeStart(Slot& slot, const ToFront& message);
+  bool isFitting(Slot& slot, Lock& lock, const std::function<bool()>& look);
+  bool takeEvent(Slot& slot, const OrderEvent& event, Lock& lock);
+  bool takeOutcome(Slot& slot, const Outcome& outcome, std::optional<SharedBytes> body, Lock& lock);
+  static bool isAtWorkOn(const Slot& slot, std::string_view scene);
   void answerRequest(Slot& slot, const LightMapRequest& request);
   void replaceWorker(Slot& slot);
   void watch();

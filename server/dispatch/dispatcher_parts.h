@@ -4,8 +4,9 @@
 #include <map>
 
 #include "server/dispatch/dispatcher.h"
+#include "server/wire/answers.h"
 
-/// What Dispatcher's two source files share. Everything here is guarded by the dispatcher's mutex.
+/// What Dispatcher's source files share. Everything here is guarded by the dispatcher's mutex.
 namespace gnomon {
 
 /// The result of a task that no worker has done.
@@ -25,6 +26,8 @@ struct Dispatcher::Ticket {
   std::size_t slot = 0;                       ///< where it runs
   std::optional<Clock::time_point> calledOff; ///< no caller waits for it any more
   std::deque<OrderEvent> events;              ///< not delivered yet
+  std::size_t eventBytes = 0;                 ///< of them
+  Announced announced;                        ///< by its events
   bool hasEvents = false;                     ///< some came, so that it can't be tried again
   TaskResult result;
   std::condition_variable changed;

@@ -76,6 +76,7 @@ bool Dispatcher::send(const TicketPtr& ticket, std::size_t worker) {
   order.number = ++numbers_;
   order.queuedMilliseconds = ticket->waitedMilliseconds;
   order.milliseconds = std::chrono::duration<double, std::milli>(ticket->task.deadline - Clock::now()).count();
+  ticket->announced = {};
   slot.running.emplace(order.number, ticket);
   const std::array files{ticket->task.bundle->get(), ticket->request->get()};
   if (!channel.send(textOf(ToWorker{.order = order}), files)) {

@@ -12,6 +12,7 @@
 #include "server/system/byte_budget.h"
 #include "server/system/clock.h"
 #include "server/system/file_descriptor.h"
+#include "server/system/shared_bytes.h"
 #include "server/wire/messages.h"
 
 namespace gnomon {
@@ -52,7 +53,7 @@ enum class TaskRefusal {
 /// What became of a task.
 struct TaskResult {
   Outcome outcome;
-  std::optional<FileDescriptor> body{}; ///< where there are no problems
+  std::optional<SharedBytes> body{}; ///< where there are no problems
   TaskRefusal refusal = TaskRefusal::none;
   ReplyRoom room{}; ///< for the body, once it may be read as a reply
 };

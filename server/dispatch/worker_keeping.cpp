@@ -1,14 +1,12 @@
 #include <algorithm>
-#include <array>
 #include <exception>
 #include <new>
 #include <utility>
 
 #include "server/dispatch/dispatcher_parts.h"
-#include "server/system/file_descriptor.h"
 #include "server/system/log.h"
 
-/// How a dispatcher starts its workers, reads their messages, watches and replaces them.
+/// How a dispatcher starts its workers, listens to them, watches and replaces them.
 namespace gnomon {
 namespace {
 
@@ -90,74 +88,6 @@ void Dispatcher::listen(Slot& slot) {
     if (event != ChannelEvent::ended) endWorker(slot, {faultProblem("It sent what is no message."), WorkerEnd::crash});
     return;
   }
-}
-
-/// False where the message is none.
-bool Dispatcher::take(Slot& slot, Packet packet) {
-  auto message = readToFront(packet.text);
-  if (!message) return false;
-  Lock lock(mutex_);
-  slot.lastMessage = Clock::now();
-  if (message->beat) {
-    const auto since = [](std::uint64_t before, std::uint64_t now) { return now >= before ? now - before : now; };
-    reusedMeshes_ += since(slot.beat.reusedMeshes, message->beat->reusedMeshes); // a new worker begins at 0
-    reusedImages_ += since(slot.beat.reusedImages, message->beat->reusedImages);
-    const std::vector<double> known = std::exchange(slot.beat, *message->beat).costFactors;
-    const std::vector<double>& factors = slot.beat.costFactors;
-    const bool sound = factors.size() == kFrameParts &&
-                       std::all_of(factors.begin(), factors.end(), [](double factor) { return factor >= 0; });
-    for (std::size_t i = 0; sound && known.size() == kFrameParts && i < kFrameParts; ++i) {
-      if (factors[i] != known[i]) costFactors_.parts[i] = factors[i]; // what it has learned just now
-    }
-  }
-  if (message->ready) {
-    info_ = *message->ready;
-    slot.ready = true;
-    slot.failures = 0;
-    logEvent("worker", "Worker " + std::to_string(slot.process->pid()) + " is ready: " + info_.backend + " " +
-                           info_.platform + ", " + info_.renderer + ", " + info_.version + ".");
-    changed_.notify_all();
-    placeWaiting();
-  }
-  if (message->refusal) {
-    refusal_ = std::move(message->refusal->problems);
-    changed_.notify_all();
-  }
-  if (message->event) {
-    const auto found = slot.running.find(message->event->number);
-    if (found == slot.running.end()) return false;
-    Ticket& ticket = *found->second;
-    ticket.hasEvents = ticket.task.order.kind != OrderKind::sequenceFrame; // which sends the same again
-    ticket.events.push_back(*std::move(message->event));
-    ticket.changed.notify_one();
-  }
-  if (message->outcome) {
-    const auto found = slot.running.find(message->outcome->number);
-    if (found == slot.running.end()) return false;
-    const TicketPtr ticket = found->second;
-    slot.running.erase(found);
-    TaskResult result{*std::move(message->outcome), std::nullopt};
-    if (!packet.files.empty()) result.body = std::move(packet.files.front());
-    finish(ticket, std::move(result));
-    placeWaiting();
-  }
-  if ((message->request || message->made) && options_.lightMaps) {
-    slot.isHandled = true;
-    lock.unlock();
-    if (message->request) answerRequest(slot, *message->request);
-    if (message->made && !packet.files.empty()) options_.lightMaps->write(message->made->key, packet.files.front());
-    lock.lock();
-    slot.lastMessage = Clock::now();
-    slot.isHandled = false;
-  }
-  return true;
-}
-
-void Dispatcher::answerRequest(Slot& slot, const LightMapRequest& request) {
-  const FileDescriptor file = options_.lightMaps->open(request.key);
-  const std::array files{file.get()};
-  slot.process->channel().send(textOf(ToWorker{.lightMap = LightMapFound{request.number}}),
-                               std::span(files).first(file ? 1 : 0));
 }
 
 /// Clears up after a worker: its tasks wait again, or are done.

@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 4> kForms{"application/json", "text/csv",
 /// Sends the report, which has come as the result's body, as the last event.
 void tellReport(TaskResult& result, const TaskEvents& events) {
   if (auto report = bodyOf(result)) {
-    events({.number = result.outcome.number, .name = "result", .data = *std::move(report)});
+    events({.number = result.outcome.number, .name = "result", .data = std::string(*report)});
   }
 }
 

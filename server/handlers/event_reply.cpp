@@ -63,7 +63,8 @@ bool EventStream::sendTo(const BodySink& sink, std::chrono::milliseconds pause) 
   }
 }
 
-std::string problemText(const Problems& problems, const std::string& requestId) {
+std::string problemText(const Problems& reasons, const std::string& requestId) {
+  const Problems& problems = atLeastOne(reasons);
   return jsonText(problemJson(problems, statusOf(problems.front().code), requestId));
 }
 

@@ -54,7 +54,7 @@ using EventWork = std::function<StreamResult(const std::function<bool()>& gone, 
 /// A reply of events that are sent while `work` runs, on a thread of its own. An exception becomes an event `problem`.
 HttpReply eventReply(const RouteCall& call, EventWork work);
 
-/// The data of an event `problem`. `problems` is not empty.
+/// The data of an event `problem`.
 std::string problemText(const Problems& problems, const std::string& requestId);
 
 } // namespace gnomon

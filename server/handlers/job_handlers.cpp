@@ -162,7 +162,7 @@ HttpReply getJobFrame(Services& services, RouteCall call) {
     auto frame = services.jobs.frame(job->id, *index);
     if (!frame) return jobProblem(frame.problems(), call);
     if (!*frame) return problemReply({notDrawn}, call.request.id);
-    reply = frameReply({.index = *index, .pictures = pictures, .bytes = std::move((*frame)->bytes)}, call);
+    reply = frameReply({.index = *index, .pictures = std::move((*frame)->pictures)}, call);
   }
   reply.headers.emplace_back("ETag", etag);
   reply.headers.emplace_back("Cache-Control", "private, no-cache");

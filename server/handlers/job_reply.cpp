@@ -55,7 +55,7 @@ Result<JobProgress> jobAt(Services& services, const RouteCall& call) {
 
 HttpReply jobProblem(const Problems& problems, const RouteCall& call) {
   constexpr int kRetrySeconds = 5;
-  const bool isBusy = problems.front().code == ProblemCode::busy;
+  const bool isBusy = atLeastOne(problems).front().code == ProblemCode::busy;
   return problemReply(
       problems, call.request.id,
       {.retryAfterSeconds = kRetrySeconds, .refusal = isBusy ? RefusalReason::permits : RefusalReason::none});
@@ -94,7 +94,7 @@ Problems JobFrames::await(const std::function<void()>& waiting) {
     const auto note = services_.jobs.note(job_.id, next_);
     if (!note) return note.problems();
     if (*note) return {};
-    if (job_.state == JobState::failed) return job_.problems;
+    if (job_.state == JobState::failed) return atLeastOne(job_.problems);
     if (job_.state == JobState::cancelled || job_.state == JobState::done) return {unknownJob(job_.id)};
     if (services_.draining) return {{ProblemCode::unavailable, "", "The server is shutting down.", "", ""}};
     if (clientGone_()) return {{ProblemCode::unavailable, "", "The client left.", "", ""}};
@@ -115,7 +115,7 @@ Problems JobFrames::await(const std::function<void()>& waiting) {
 Result<JobFrame> JobFrames::read(ByteLease& room) {
   const auto note = services_.jobs.note(job_.id, next_);
   if (!note) return note.problems();
-  const std::size_t bytes = *note ? bytesOf((*note)->pictures) : 0;
+  const std::size_t bytes = *note ? bytesOf((*note)->pictures).value_or(0) : 0;
   if (!room.growBy(std::min(bytes, services_.replyBytes.total()), until_, clientGone_)) return noReplyRoom();
   auto frame = services_.jobs.frame(job_.id, next_);
   if (!frame) return frame.problems();
@@ -137,8 +137,7 @@ DoneFrame JobFrames::next(const std::function<void()>& waiting) {
   done.carried = carried_;
   done.own = std::move(frame->note.carried);
   done.result.outcome.stages = std::move(frame->note.stages);
-  done.pictures = std::move(frame->note.pictures);
-  done.bytes = std::move(frame->bytes);
+  done.pictures = std::move(frame->pictures);
   done.warnings = std::move(frame->note.warnings);
   done.milliseconds = frame->note.milliseconds;
   return done;

@@ -95,6 +95,10 @@ void JobRunners::draw(const FrameTurn& turn) {
   const auto sequence = sequences_.of(turn.job);
   if (!sequence) return giveBack(turn, false);
   if (*sequence == nullptr) return count(FrameEnd::unwanted);
+  if (turn.index < (*sequence)->first || turn.index >= (*sequence)->count) {
+    return fail(turn, {{ProblemCode::internal, "", "The job's request has no frame of this index.", "",
+                        std::to_string(turn.index)}});
+  }
   const auto used = services_.store.use(turn.scene);
   auto bundle = used ? services_.store.bundle(turn.scene) : Result<StoredBundle>(used.problems());
   if (!bundle) {
@@ -139,8 +143,8 @@ void JobRunners::draw(const FrameTurn& turn) {
                                 .warnings = std::move(frame.warnings),
                                 .stages = std::move(frame.result.outcome.stages),
                                 .milliseconds = frame.milliseconds,
-                                .pictures = std::move(frame.pictures)},
-                       .bytes = std::move(frame.bytes)});
+                                .pictures = frame.pictures.list()},
+                       .pictures = std::move(frame.pictures)});
   }
   if (stopping()) return giveBack(turn, false);
   if (passes(frame.problems.front()) && turn.deliveries < services_.jobLimits.deliveries) return giveBack(turn, true);

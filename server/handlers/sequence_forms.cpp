@@ -26,7 +26,7 @@ std::string pictureName(const DoneFrame& frame, const PictureNews& picture) {
   std::array<char, 32> number;
   const int length = std::snprintf(number.data(), number.size(), "frame-%05d", frame.index);
   std::string name(number.data(), static_cast<std::size_t>(length));
-  if (frame.pictures.size() > 1) name += "-" + picture.view;
+  if (frame.pictures.list().size() > 1) name += "-" + picture.view;
   const auto traits = std::find_if(kFormatTraits.begin(), kFormatTraits.end(),
                                    [&](const FormatTraits& format) { return format.mediaType == picture.contentType; });
   return traits == kFormatTraits.end() ? name : name.append(traits->suffix);
@@ -35,11 +35,8 @@ std::string pictureName(const DoneFrame& frame, const PictureNews& picture) {
 /// A frame's pictures, each with its bytes.
 template <class Send>
 bool eachPicture(const DoneFrame& frame, Send&& send) {
-  std::string_view bytes = asText(frame.bytes);
-  return std::all_of(frame.pictures.begin(), frame.pictures.end(), [&](const PictureNews& picture) {
-    const std::string_view own = bytes.substr(0, picture.bytes);
-    bytes.remove_prefix(picture.bytes);
-    return send(picture, SentFile{pictureName(frame, picture), picture.contentType, own});
+  return frame.pictures.each([&](const PictureNews& picture, std::string_view bytes) {
+    return send(picture, SentFile{pictureName(frame, picture), picture.contentType, bytes});
   });
 }
 
@@ -90,7 +87,7 @@ class ZipForm final : public SequenceForm {
  private:
   bool add(const BodySink& sink, const SentFile& file) {
     return sink(zip_.head(file.name, static_cast<std::uint32_t>(file.bytes.size()), crc32Of(asBytes(file.bytes)))) &&
-           sink(file.bytes); // a reply of a worker is below 2 GB
+           sink(file.bytes); // a frame's pictures have less than 2 GB
   }
 
   ZipStream zip_;
@@ -112,7 +109,7 @@ class EventForm final : public SequenceForm {
   bool frame(const BodySink& sink, const DoneFrame& frame, int of) override {
     SequenceFrame described{
         .index = frame.index, .of = of, .carried = frame.carried, .stages = frame.result.outcome.stages};
-    for (const PictureNews& picture : frame.pictures)
+    for (const PictureNews& picture : frame.pictures.list())
       described.images.push_back({picture.view, picture.contentType, ""});
     const std::string event = eventText("frame", jsonText(toJson(described)));
     std::string_view rest = event;
@@ -193,9 +190,9 @@ TypedForm sequenceForm(std::string_view mediaType, const RouteCall& call) {
 
 HttpReply frameReply(const DoneFrame& frame, const RouteCall& call) {
   HttpReply reply;
-  if (frame.pictures.size() == 1) {
-    reply.contentType = frame.pictures.front().contentType;
-    reply.body = asText(frame.bytes);
+  if (frame.pictures.list().size() == 1) {
+    reply.contentType = frame.pictures.list().front().contentType;
+    reply.body = frame.pictures.bytes();
     return reply;
   }
   const std::string boundary = boundaryFor(call);

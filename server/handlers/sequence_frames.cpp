@@ -9,7 +9,6 @@
 #include "protocol/base/elapsed.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/sequence/sequence.h"
-#include "server/system/file_descriptor.h"
 #include "server/system/no_thread.h"
 
 namespace gnomon {
@@ -44,8 +43,9 @@ Problems draw(Services& services, const FrameToDraw& call, DoneFrame& frame) {
              std::to_string(kLimits.maxSpecBytes) + " bytes", std::to_string(task.request.size()) + " bytes"}};
   }
   bool isDrawn = false;
+  std::vector<PictureNews> pictures;
   const auto onEvent = [&](const OrderEvent& event) {
-    auto news = event.name == kSequenceNews ? readSequenceNews(event.data) : std::nullopt;
+    auto news = readSequenceNews(event.data);
     if (!news) return;
     if (news->drawn && !isDrawn) {
       isDrawn = true;
@@ -54,7 +54,7 @@ Problems draw(Services& services, const FrameToDraw& call, DoneFrame& frame) {
       frame.warnings = std::move(news->drawn->warnings);
       if (call.drawn) call.drawn(frame);
     }
-    if (!news->pictures.empty()) frame.pictures = std::move(news->pictures);
+    if (!news->pictures.empty()) pictures = std::move(news->pictures);
   };
   while (true) {
     if (call.awaitRoom && !call.awaitRoom()) {
@@ -64,15 +64,12 @@ Problems draw(Services& services, const FrameToDraw& call, DoneFrame& frame) {
     task.deadline = std::min(call.task.deadline, Clock::now() + services.requestTimeout);
     frame.result = runPatiently(services, call, task, onEvent);
     if (!frame.result.outcome.problems.empty()) return std::move(frame.result.outcome.problems);
-    if (!call.takeRoom || call.takeRoom(bytesOf(frame.pictures))) break;
+    if (!call.takeRoom || call.takeRoom(bytesOf(pictures).value_or(0))) break;
   }
-  const std::size_t size = bytesOf(frame.pictures);
-  std::optional<Bytes> read;
-  if (frame.result.body) read = readFile(*std::exchange(frame.result.body, std::nullopt), size);
-  if (!read || read->size() != size || size == 0) {
-    return {{ProblemCode::internal, "", "The worker's reply could not be read.", "", ""}};
-  }
-  frame.bytes = *std::move(read);
+  auto made =
+      FramePictures::of(std::move(pictures), std::exchange(frame.result.body, std::nullopt).value_or(SharedBytes()));
+  if (!made) return std::move(made).problems();
+  frame.pictures = *std::move(made);
   return {};
 }
 
@@ -86,12 +83,6 @@ Problems placed(Problems problems, const std::string& place) {
     if (isPlace) problem.pointer.insert(0, place);
   }
   return problems;
-}
-
-std::size_t bytesOf(const std::vector<PictureNews>& pictures) {
-  std::size_t bytes = 0;
-  for (const PictureNews& picture : pictures) bytes += picture.bytes;
-  return bytes;
 }
 
 DoneFrame drawSequenceFrame(Services& services, FrameToDraw call) {
@@ -181,7 +172,7 @@ void SequenceFrames::work(FrameInWork& inWork, FrameToDraw call) {
   };
   DoneFrame frame = drawSequenceFrame(services_, std::move(call));
   const std::lock_guard lock(mutex_);
-  expected_ = std::max(expected_, frame.bytes.size());
+  expected_ = std::max(expected_, frame.pictures.bytes().size());
   end(inWork, std::move(frame));
 }
 

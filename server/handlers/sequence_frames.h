@@ -15,18 +15,17 @@
 #include "server/handlers/handlers.h"
 #include "server/handlers/work.h"
 #include "server/system/byte_budget.h"
-#include "server/wire/sequence_news.h"
+#include "server/wire/frame_pictures.h"
 
 namespace gnomon {
 
 /// A frame of a sequence, or why there is none.
 struct DoneFrame {
   int index = 0;
-  Problems problems{}; ///< with places in the request
-  TaskResult result{}; ///< where there are problems: what refused
-  std::vector<PictureNews> pictures{};
-  Bytes bytes{};                     ///< of the pictures, one after the other
-  std::unique_ptr<ByteLease> room{}; ///< for the bytes, beside all replies that clients are taking
+  Problems problems{};               ///< with places in the request
+  TaskResult result{};               ///< where there are problems: what refused
+  FramePictures pictures{};          ///< none where there are problems
+  std::unique_ptr<ByteLease> room{}; ///< for their bytes, beside all replies that clients are taking
   Carried own{};                     ///< of this frame alone
   Carried carried{};                 ///< for the next frame
   std::vector<std::string> warnings{};
@@ -51,8 +50,6 @@ struct FrameToDraw {
 
 /// Problems of a frame's own spec, seen from the request.
 Problems placed(Problems problems, const std::string& place);
-
-std::size_t bytesOf(const std::vector<PictureNews>& pictures);
 
 /// Has a worker draw it, on the calling thread's behalf.
 DoneFrame drawSequenceFrame(Services& services, FrameToDraw call);

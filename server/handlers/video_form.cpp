@@ -9,6 +9,10 @@
 namespace gnomon {
 namespace {
 
+Problem noRawPicture() {
+  return {ProblemCode::internal, "", "The frame is none of a video.", "", ""};
+}
+
 class VideoForm final : public SequenceForm {
  public:
   VideoForm(std::unique_ptr<ByteLease> memory, VideoFile file) : memory_(std::move(memory)), file_(std::move(file)) {}
@@ -16,8 +20,9 @@ class VideoForm final : public SequenceForm {
   bool begin(const BodySink& sink) override { return sink(file_.head()); }
 
   Status encode(const DoneFrame& frame) override {
-    const PictureNews& picture = frame.pictures.front();
-    auto piece = file_.add({picture.width, picture.height, frame.bytes});
+    const PictureNews* const picture = frame.pictures.raw();
+    if (picture == nullptr) return noRawPicture();
+    auto piece = file_.add({picture->width, picture->height, frame.pictures.bytes().bytes()});
     if (!piece) return piece.problems();
     piece_ = *std::move(piece);
     return Done{};
@@ -40,12 +45,9 @@ std::string bytesText(std::size_t bytes) {
 } // namespace
 
 Result<TypedForm> videoForm(const VideoSettings& settings, const DoneFrame& first, ByteBudget& memory) {
-  const PictureNews& picture = first.pictures.front();
-  constexpr int kMostSide = 65'535;
-  if (picture.width < 1 || picture.height < 1 || picture.width > kMostSide || picture.height > kMostSide) {
-    return Problem{ProblemCode::internal, "", "Unsupported picture size.", "", ""};
-  }
-  const std::size_t bytes = videoBytes(picture.width, picture.height);
+  const PictureNews* const picture = first.pictures.raw();
+  if (picture == nullptr) return noRawPicture();
+  const std::size_t bytes = videoBytes(picture->width, picture->height);
   if (bytes > memory.total()) {
     return Problem{ProblemCode::tooLarge, "/spec/width",
                    "Encoding a video of this size takes more memory than all videos may (--video-memory-bytes).",
@@ -56,7 +58,7 @@ Result<TypedForm> videoForm(const VideoSettings& settings, const DoneFrame& firs
     return Problem{ProblemCode::busy, "", "Other videos use the memory for videos.", bytesText(memory.total()), ""};
   }
   auto file =
-      VideoFile::create({picture.width, picture.height, settings.framesPerSecond, settings.frames}, settings.quality);
+      VideoFile::create({picture->width, picture->height, settings.framesPerSecond, settings.frames}, settings.quality);
   if (!file) return file.problems();
   return TypedForm{std::string(kVideoType), std::make_shared<VideoForm>(std::move(lease), *std::move(file))};
 }

@@ -1,10 +1,7 @@
 #include "server/handlers/work.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/text.h"
@@ -12,6 +9,7 @@
 #include "protocol/json/json_codec.h"
 #include "server/handlers/event_reply.h"
 #include "server/system/file_descriptor.h"
+#include "server/system/log.h"
 #include "server/system/numbers.h"
 
 namespace gnomon {
@@ -21,10 +19,11 @@ std::vector<std::string> preferences(const HttpRequest& request) {
   return splitTrimmed(headerValue(request.headers, "prefer").value_or(""), ',');
 }
 
-RefusalReason refusalOf(TaskRefusal refusal) {
-  return refusal == TaskRefusal::queue    ? RefusalReason::queue
-         : refusal == TaskRefusal::memory ? RefusalReason::memory
-                                          : RefusalReason::none;
+/// Whether these are the bytes that the scene's id names: no worker's word alone removes a scene.
+bool isBundleOf(const FileDescriptor& bundle, const std::string& scene) {
+  Sha256 hash;
+  return eachPiece(bundle, [&](std::span<const std::uint8_t> piece) { hash.add(asText(piece)); }) &&
+         hash.hex() == scene;
 }
 
 } // namespace
@@ -96,7 +95,7 @@ Result<Task> frameTask(const Services& services, const RouteCall& call, const st
 void takeRoom(TaskResult& result, ByteBudget& budget, Clock::time_point deadline,
               const std::function<bool()>& unwanted) {
   if (!result.outcome.problems.empty() || !result.body) return;
-  if (result.room.await(budget, sizeOf(*result.body).value_or(0), deadline, unwanted)) return;
+  if (result.room.await(budget, result.body->size(), deadline, unwanted)) return;
   result.body.reset();
   result.outcome.problems = {noReplyRoom()};
   result.refusal = TaskRefusal::memory;
@@ -106,8 +105,12 @@ TaskResult runTask(Services& services, Task task, const std::function<bool()>& g
   const std::string scene = task.order.scene;
   const bool hasOwnRoom = task.order.kind == OrderKind::sequenceFrame;
   const auto allowed = std::chrono::duration_cast<std::chrono::seconds>(task.allowed).count();
+  const auto bundle = task.bundle;
   TaskResult result = services.workers.run(std::move(task), gone, events);
-  if (result.outcome.damaged) {
+  if (result.outcome.damaged && isBundleOf(*bundle, scene)) {
+    logEvent("worker", "A worker called scene " + scene + " damaged, whose stored bytes are its own.");
+    result.outcome.problems = {{ProblemCode::internal, "", "The scene's bytes could not be read.", "", ""}};
+  } else if (result.outcome.damaged) {
     services.store.setAside(scene);
     result.outcome.problems = {
         {ProblemCode::notFound, "id", "The stored bytes of this scene were damaged. Upload it again.", "", scene}};
@@ -118,59 +121,6 @@ TaskResult runTask(Services& services, Task task, const std::function<bool()>& g
   const auto unwanted = [&] { return gone() || (services.cut != nullptr && services.cut->raised()); };
   if (!hasOwnRoom) takeRoom(result, services.replyBytes, Clock::now() + services.replyRoom, unwanted);
   return result;
-}
-
-std::string serverTiming(const std::vector<StageTime>& stages) {
-  std::string text;
-  for (const StageTime& stage : stages) {
-    std::array<char, 32> duration;
-    const int length = std::snprintf(duration.data(), duration.size(), "%.3f", stage.milliseconds);
-    text += (text.empty() ? "" : ", ") + stage.stage + ";dur=";
-    text.append(duration.data(), static_cast<std::size_t>(length));
-  }
-  return text;
-}
-
-std::string warningsField(const std::vector<std::string>& warnings) {
-  const auto text = [](const Json& list) { return list.dump(-1, ' ', true, Json::error_handler_t::replace); };
-  Json list = Json::array();
-  for (std::size_t i = 0; i < warnings.size(); ++i) {
-    list.push_back(warnings[i]);
-    if (text(list).size() <= kMostWarningBytes) continue;
-    list.back() = std::to_string(warnings.size() - i) + " more warnings are in the frame's report.";
-    break;
-  }
-  return text(list);
-}
-
-std::optional<std::string> bodyOf(TaskResult& result) {
-  Problems& problems = result.outcome.problems;
-  if (!problems.empty()) return std::nullopt;
-  auto body = result.body ? readText(*result.body, std::numeric_limits<std::int32_t>::max()) : std::nullopt;
-  if (!body) problems = {{ProblemCode::internal, "", "The worker's reply could not be read.", "", ""}};
-  return body;
-}
-
-HttpReply replyOf(TaskResult result, std::string_view requestId) {
-  Outcome& outcome = result.outcome;
-  auto body = bodyOf(result);
-  if (!outcome.problems.empty()) {
-    HttpReply reply = problemReply(outcome.problems, requestId, {.retryAfterSeconds = outcome.retryAfterSeconds});
-    reply.note = std::move(outcome.note);
-    reply.refusal = refusalOf(result.refusal);
-    return reply;
-  }
-  HttpReply reply;
-  reply.contentType = std::move(outcome.contentType);
-  reply.body = *std::move(body);
-  reply.room = std::move(result.room);
-  reply.stages = std::move(outcome.stages);
-  if (!reply.stages.empty()) {
-    reply.headers.emplace_back("Server-Timing", serverTiming(reply.stages));
-    reply.headers.emplace_back("Timing-Allow-Origin", "*");
-  }
-  if (!outcome.warnings.empty()) reply.headers.emplace_back("Gnomon-Warnings", warningsField(outcome.warnings));
-  return reply;
 }
 
 HttpReply loadScene(Services& services, const RouteCall& call, const std::string& id, StoredBundle bundle,

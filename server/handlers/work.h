@@ -11,6 +11,7 @@
 #include "protocol/spec/frame_spec.h"
 #include "server/dispatch/task.h"
 #include "server/handlers/handlers.h"
+#include "server/handlers/outcome_reply.h"
 
 /// How handlers have workers do the work.
 namespace gnomon {
@@ -40,30 +41,19 @@ inline constexpr double kLongFrame = 1'000; ///< milliseconds
 Result<Task> frameTask(const Services& services, const RouteCall& call, const std::string& scene, StoredBundle bundle,
                        const FrameSpec& spec, const SceneCounts& counts);
 
-/// Takes room for the body of a result before a byte of it is read. Where there is none by the deadline, or it is not
-/// wanted any more, the body is let go and the result is the problem of noReplyRoom().
+/// Takes room for the body of a result. Where there is none by the deadline, or it is not wanted any more, the body is
+/// let go and the result is the problem of noReplyRoom().
 void takeRoom(TaskResult& result, ByteBudget& budget, Clock::time_point deadline,
               const std::function<bool()>& unwanted);
 
-/// Runs the task on this thread's behalf. A damaged bundle is set aside, and becomes a notFound problem. The body has
-/// room, but that of a sequence's frame, for which its sequence takes it (SequenceFrames).
+/// Runs the task on this thread's behalf. A bundle that a worker calls damaged, and that is, is set aside, and becomes
+/// a notFound problem. The body has room, but that of a sequence's frame, for which its sequence takes it
+/// (SequenceFrames).
 TaskResult runTask(Services& services, Task task, const std::function<bool()>& gone, const TaskEvents& events = {});
-
-/// The value of a Gnomon-Warnings header: a JSON array of strings, in ASCII. Of warnings that would make it longer than
-/// kMostWarningBytes, it says only how many there are.
-inline constexpr std::size_t kMostWarningBytes = 4096;
-std::string warningsField(const std::vector<std::string>& warnings);
-
-/// The body of a result; nothing where the result has problems, or gets one because there is no body to read.
-std::optional<std::string> bodyOf(TaskResult& result);
 
 /// Has a worker load the scene: its summary, or the reply that says why not. `strict`: refused where it violates glTF.
 HttpReply loadScene(Services& services, const RouteCall& call, const std::string& id, StoredBundle bundle,
                     bool strict = false);
-
-/// The result as a reply: the body with its type and room, stages in Server-Timing, warnings in Gnomon-Warnings, or the
-/// problems.
-HttpReply replyOf(TaskResult result, std::string_view requestId);
 
 /// Does the work. `gone`: its result is not wanted any more. `events`: takes its events.
 using EventedWork = std::function<TaskResult(const std::function<bool()>& gone, const TaskEvents& events)>;
@@ -75,8 +65,5 @@ HttpReply replyAs(std::string_view mediaType, const RouteCall& call, EventedWork
 /// One of a few permits, given back when the last copy goes; null where all are taken.
 using Permit = std::shared_ptr<std::counting_semaphore<>>;
 Permit permitOf(std::counting_semaphore<>& permits);
-
-/// "queue;dur=0.12, load;dur=3.4": the value of a Server-Timing header.
-std::string serverTiming(const std::vector<StageTime>& stages);
 
 } // namespace gnomon

@@ -10,10 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "protocol/base/bytes.h"
 #include "protocol/job/job.h"
 #include "protocol/sequence/sequence.h"
-#include "server/wire/sequence_news.h"
+#include "server/wire/frame_pictures.h"
 
 /// Frames of sequences that wait to be drawn, and what was drawn.
 namespace gnomon {
@@ -83,7 +82,8 @@ struct FrameTurn {
 
 /// All about a drawn frame but its pictures.
 struct FrameNote {
-  std::string contentKey{}; ///< of scene, specification and renderer: what the pictures depend on
+  std::string contentKey{}; ///< SHA-256, in lower-case digits, of scene, specification and renderer: what the pictures
+                            ///< depend on
   Carried carried{};        ///< of this frame alone
   std::vector<std::string> warnings{};
   std::vector<StageTime> stages{};
@@ -93,7 +93,7 @@ struct FrameNote {
 
 struct JobFrame {
   FrameNote note{};
-  Bytes bytes{}; ///< of the pictures, one after the other
+  FramePictures pictures{}; ///< those of the note
 };
 
 /// Any thread; any number of processes, where what is behind it is shared. Every function may give the problem

@@ -1,12 +1,14 @@
 #include "server/jobs/job_text.h"
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "protocol/fields/field_codec.h"
 #include "protocol/fields/type_tables.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/json/problem_rows.h"
 #include "protocol/sequence/sequence.h"
+#include "server/wire/messages.h"
 #include "server/wire/sequence_news.h"
 
 namespace gnomon {
@@ -26,6 +28,11 @@ namespace {
 struct ProblemsText {
   std::vector<Problem> problems{};
 };
+
+/// It becomes an entity tag.
+bool isContentKey(std::string_view key) {
+  return key.size() == 64 && key.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
 
 template <class Value>
 std::optional<Value> readValue(std::string_view text) {
@@ -56,7 +63,10 @@ std::string textOf(const Carried& carried) {
 }
 
 std::optional<FrameNote> readFrameNote(std::string_view text) {
-  return readValue<FrameNote>(text);
+  auto note = readValue<FrameNote>(text);
+  const bool isSound = note && isContentKey(note->contentKey) && areStages(note->stages) && note->milliseconds >= 0 &&
+                       note->milliseconds <= kMostMilliseconds && bytesOf(note->pictures);
+  return isSound ? std::move(note) : std::nullopt;
 }
 
 std::optional<Problems> readProblems(std::string_view text) {

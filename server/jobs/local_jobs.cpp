@@ -157,13 +157,13 @@ Status LocalJobs::finish(const FrameTurn& turn, const JobFrame& frame) {
   };
   Entry* entry = wanted();
   if (entry == nullptr) return Done{};
-  if (bytes_ + frame.bytes.size() > limits_.bytes) {
+  if (bytes_ + frame.pictures.bytes().size() > limits_.bytes) {
     end(*entry, JobState::failed, {noRoomForFrame(limits_.bytes)});
     return Done{};
   }
   const std::shared_ptr<ResultFile> file = entry->file;
   lock.unlock();
-  const auto offset = file->add(frame.bytes);
+  const auto offset = file->add(frame.pictures.bytes().bytes());
   lock.lock();
   entry = wanted();
   if (entry == nullptr) return Done{};
@@ -171,13 +171,13 @@ Status LocalJobs::finish(const FrameTurn& turn, const JobFrame& frame) {
     end(*entry, JobState::failed, offset.problems());
     return Done{};
   }
-  entry->kept.emplace(turn.index, KeptFrame{frame.note, *offset, frame.bytes.size()});
+  entry->kept.emplace(turn.index, KeptFrame{frame.note, *offset, frame.pictures.bytes().size()});
   entry->taken.erase(turn.receipt);
   std::erase_if(entry->taken, [&](const auto& taken) { return taken.second.frame.index == turn.index; });
   std::erase_if(entry->waiting, [&](const WaitingFrame& waiting) { return waiting.index == turn.index; });
-  bytes_ += frame.bytes.size();
+  bytes_ += frame.pictures.bytes().size();
   JobProgress& progress = entry->progress;
-  progress.bytes += frame.bytes.size();
+  progress.bytes += frame.pictures.bytes().size();
   ++progress.done;
   noteChange(*entry);
   if (progress.first + progress.done == progress.count) {
@@ -250,7 +250,9 @@ Result<std::optional<JobFrame>> LocalJobs::frame(const std::string& job, int ind
   lock.unlock();
   auto bytes = file->read(found.offset, found.size);
   if (!bytes) return Problem{ProblemCode::unavailable, "", "The disk does not give the frame back.", "", ""};
-  return std::optional(JobFrame{found.note, *std::move(bytes)});
+  auto pictures = FramePictures::of(found.note.pictures, *std::move(bytes));
+  if (!pictures) return std::move(pictures).problems();
+  return std::optional(JobFrame{found.note, *std::move(pictures)});
 }
 
 Result<bool> LocalJobs::remove(const std::string& job) {

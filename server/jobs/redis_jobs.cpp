@@ -1,17 +1,20 @@
 #include "server/jobs/redis_jobs.h"
 
 #include <algorithm>
-#include <charconv>
+#include <limits>
 #include <thread>
+#include <utility>
 
 #include "protocol/fields/fields.h"
 #include "protocol/job/job_rows.h"
 #include "protocol/sequence/sequence.h"
+#include "protocol/spec/limits.h"
 #include "server/jobs/job_queue.h"
 #include "server/jobs/job_scripts.h"
 #include "server/jobs/job_text.h"
 #include "server/system/clock.h"
 #include "server/system/log.h"
+#include "server/system/numbers.h"
 
 namespace gnomon {
 namespace {
@@ -31,18 +34,34 @@ Problem refused(const redis::Reply& error) {
   return {ProblemCode::unavailable, "", "What keeps the jobs does not take them now.", "", ""};
 }
 
-Problem damaged() {
+/// Of what no replica writes. `key`: where it is.
+Problem damaged(const std::string& key) {
+  logEvent("jobs", "What Redis holds at " + key + " can't be used.");
   return {ProblemCode::internal, "", "What was kept of this job can't be read.", "", ""};
 }
 
-template <class Number>
-Number numberOf(const redis::Reply& reply) {
-  Number number = 0;
-  const std::string& text = reply.text;
-  if (reply.isInteger()) return static_cast<Number>(reply.integer);
-  std::from_chars(text.data(), text.data() + text.size(), number);
-  return number;
+std::string jobKey(const std::string& job) {
+  return kPrefix + ("job:" + job);
 }
+
+/// Reads numbers out of replies, and remembers whether each was one within its bounds.
+class Numbers {
+ public:
+  template <class Number>
+  Number read(const redis::Reply& reply, Number least, Number most) {
+    const auto number = numberIn<Number>(reply.isInteger() ? std::to_string(reply.integer) : reply.text, least, most);
+    areSound_ = areSound_ && number.has_value();
+    return number.value_or(least);
+  }
+  bool areSound() const { return areSound_; }
+
+ private:
+  bool areSound_ = true;
+};
+
+constexpr int kMostFrames = static_cast<int>(kLimits.maxSequenceFrames);
+constexpr std::int64_t kMostTime = 4'102'444'800'000; ///< milliseconds: the year 2100
+constexpr std::uint64_t kMostCount = std::uint64_t{1} << 52;
 
 std::optional<JobState> stateOf(std::string_view word) {
   const auto& all = kSpellings<JobState>;
@@ -58,21 +77,25 @@ std::optional<JobProgress> progressOf(const redis::Reply& reply) {
   const auto state = stateOf(fields[3].text);
   auto carried = readCarried(fields[8].text);
   auto problems = readProblems(fields[9].text);
-  if (!state || !carried || !problems) return std::nullopt;
-  return JobProgress{.id = fields[0].text,
-                     .key = fields[1].text,
-                     .scene = fields[2].text,
-                     .state = *state,
-                     .first = numberOf<int>(fields[4]),
-                     .count = numberOf<int>(fields[5]),
-                     .done = numberOf<int>(fields[6]),
-                     .bytes = numberOf<std::uint64_t>(fields[7]),
-                     .carried = *std::move(carried),
-                     .problems = *std::move(problems),
-                     .created = numberOf<std::int64_t>(fields[10]),
-                     .started = numberOf<std::int64_t>(fields[11]),
-                     .changed = numberOf<std::int64_t>(fields[12]),
-                     .ended = numberOf<std::int64_t>(fields[13])};
+  if (!state || !carried || !problems || (*state == JobState::failed && problems->empty())) return std::nullopt;
+  Numbers numbers;
+  const int first = numbers.read(fields[4], 0, kMostFrames);
+  const int count = numbers.read(fields[5], first + 1, kMostFrames);
+  JobProgress progress{.id = fields[0].text,
+                       .key = fields[1].text,
+                       .scene = fields[2].text,
+                       .state = *state,
+                       .first = first,
+                       .count = count,
+                       .done = numbers.read(fields[6], 0, count - first),
+                       .bytes = numbers.read<std::uint64_t>(fields[7], 0, kMostCount),
+                       .carried = *std::move(carried),
+                       .problems = *std::move(problems),
+                       .created = numbers.read<std::int64_t>(fields[10], 0, kMostTime),
+                       .started = numbers.read<std::int64_t>(fields[11], 0, kMostTime),
+                       .changed = numbers.read<std::int64_t>(fields[12], 0, kMostTime),
+                       .ended = numbers.read<std::int64_t>(fields[13], 0, kMostTime)};
+  return numbers.areSound() ? std::optional(std::move(progress)) : std::nullopt;
 }
 
 } // namespace
@@ -121,14 +144,17 @@ Result<std::optional<FrameTurn>> RedisJobs::take(std::chrono::milliseconds patie
     if (reply->elements.size() == 7) {
       const auto& fields = reply->elements;
       auto carried = readCarried(fields[2].text);
-      if (!carried) return damaged();
-      return std::optional(FrameTurn{.job = fields[0].text,
-                                     .index = numberOf<int>(fields[1]),
-                                     .client = fields[3].text,
-                                     .scene = fields[4].text,
-                                     .before = *std::move(carried),
-                                     .deliveries = numberOf<int>(fields[5]),
-                                     .receipt = fields[6].text});
+      if (!carried) return damaged(kPrefix + ("stream:" + fields[0].text));
+      Numbers numbers;
+      FrameTurn turn{.job = fields[0].text,
+                     .index = numbers.read(fields[1], 0, kMostFrames - 1),
+                     .client = fields[3].text,
+                     .scene = fields[4].text,
+                     .before = *std::move(carried),
+                     .deliveries = numbers.read(fields[5], 1, std::numeric_limits<int>::max()),
+                     .receipt = fields[6].text};
+      if (!numbers.areSound()) return damaged(kPrefix + ("stream:" + turn.job));
+      return std::optional(std::move(turn));
     }
     if (Clock::now() >= until) return std::optional<FrameTurn>();
     std::this_thread::sleep_until(std::min(Clock::now() + pause, until));
@@ -136,7 +162,7 @@ Result<std::optional<FrameTurn>> RedisJobs::take(std::chrono::milliseconds patie
 }
 
 Result<std::optional<std::string>> RedisJobs::request(const std::string& job) {
-  auto reply = ask({"HGET", kPrefix + ("job:" + job), "request"}, limits_.bytes);
+  auto reply = ask({"HGET", jobKey(job), "request"}, limits_.bytes);
   if (!reply) return reply.problems();
   return reply->isText() ? std::optional(std::move(reply->text)) : std::nullopt;
 }
@@ -148,13 +174,14 @@ Result<bool> RedisJobs::renew(const FrameTurn& turn) {
 }
 
 Status RedisJobs::finish(const FrameTurn& turn, const JobFrame& frame) {
-  if (frame.bytes.size() > kMostText) {
-    return fail(turn, {{ProblemCode::tooLarge, "", "The pictures of a frame are too large to be kept.",
-                        std::to_string(kMostText) + " bytes", std::to_string(frame.bytes.size()) + " bytes"}});
+  if (frame.pictures.bytes().size() > kMostText) {
+    return fail(turn,
+                {{ProblemCode::tooLarge, "", "The pictures of a frame are too large to be kept.",
+                  std::to_string(kMostText) + " bytes", std::to_string(frame.pictures.bytes().size()) + " bytes"}});
   }
   const auto reply = run(job_scripts::kFinish,
                          {turn.job, turn.receipt, std::to_string(turn.index), textOf(frame.note),
-                          std::string(asText(frame.bytes)), textOf(carriedAfter(turn.before, frame.note.carried)),
+                          std::string(frame.pictures.bytes()), textOf(carriedAfter(turn.before, frame.note.carried)),
                           std::to_string(limits_.bytes), textOf(Problems{noRoomForFrame(limits_.bytes)})});
   if (!reply) return reply.problems();
   return Done{};
@@ -178,7 +205,7 @@ Result<std::optional<JobProgress>> RedisJobs::find(const std::string& job) {
   if (!reply) return reply.problems();
   if (reply->isNil()) return std::optional<JobProgress>();
   auto progress = progressOf(*reply);
-  if (!progress) return damaged();
+  if (!progress) return damaged(jobKey(job));
   return progress;
 }
 
@@ -187,7 +214,11 @@ Result<std::vector<JobProgress>> RedisJobs::list(const std::string& key) {
   if (!reply) return reply.problems();
   std::vector<JobProgress> jobs;
   for (const redis::Reply& each : reply->elements) {
-    if (auto progress = progressOf(each)) jobs.push_back(*std::move(progress));
+    if (auto progress = progressOf(each)) {
+      jobs.push_back(*std::move(progress));
+    } else {
+      (void)damaged(jobKey(each.elements.empty() ? "" : each.elements.front().text));
+    }
   }
   return jobs;
 }
@@ -197,18 +228,19 @@ Result<std::optional<FrameNote>> RedisJobs::note(const std::string& job, int ind
   if (!reply) return reply.problems();
   if (reply->isNil()) return std::optional<FrameNote>();
   auto note = readFrameNote(reply->text);
-  if (!note) return damaged();
+  if (!note) return damaged(frameKey(job, index));
   return note;
 }
 
 Result<std::optional<JobFrame>> RedisJobs::frame(const std::string& job, int index) {
-  const auto reply = ask({"HMGET", frameKey(job, index), "note", "pictures"}, kMostText);
+  auto reply = ask({"HMGET", frameKey(job, index), "note", "pictures"}, kMostText);
   if (!reply) return reply.problems();
   if (reply->elements.size() != 2 || !reply->elements[1].isText()) return std::optional<JobFrame>();
   auto note = readFrameNote(reply->elements[0].text);
-  if (!note) return damaged();
-  const std::string& pictures = reply->elements[1].text;
-  return std::optional(JobFrame{*std::move(note), Bytes(pictures.begin(), pictures.end())});
+  if (!note) return damaged(frameKey(job, index));
+  auto pictures = FramePictures::of(note->pictures, std::move(reply->elements[1].text));
+  if (!pictures) return damaged(frameKey(job, index));
+  return std::optional(JobFrame{*std::move(note), *std::move(pictures)});
 }
 
 Result<bool> RedisJobs::remove(const std::string& job) {
@@ -220,11 +252,14 @@ Result<bool> RedisJobs::remove(const std::string& job) {
 Result<JobsSize> RedisJobs::size() {
   const auto reply = run(job_scripts::kSize, {age()});
   if (!reply) return reply.problems();
-  if (reply->elements.size() != 3) return damaged();
   const auto& fields = reply->elements;
-  return JobsSize{.jobs = static_cast<std::size_t>(fields[0].integer),
-                  .framesLeft = static_cast<std::size_t>(fields[1].integer),
-                  .bytes = static_cast<std::uint64_t>(fields[2].integer)};
+  if (fields.size() != 3) return damaged("gnomon:jobs:bytes");
+  Numbers numbers;
+  const JobsSize size{.jobs = numbers.read<std::size_t>(fields[0], 0, kMostCount),
+                      .framesLeft = numbers.read<std::size_t>(fields[1], 0, kMostCount),
+                      .bytes = numbers.read<std::uint64_t>(fields[2], 0, kMostCount)};
+  if (!numbers.areSound()) return damaged("gnomon:jobs:bytes");
+  return size;
 }
 
 } // namespace gnomon

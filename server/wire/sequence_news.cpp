@@ -1,10 +1,12 @@
 #include "server/wire/sequence_news.h"
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "protocol/fields/field_codec.h"
 #include "protocol/fields/type_tables.h"
 #include "protocol/json/json_codec.h"
+#include "server/wire/frame_pictures.h"
 
 namespace gnomon {
 
@@ -19,7 +21,8 @@ std::optional<SequenceNews> readSequenceNews(std::string_view text) {
   SequenceNews news;
   const std::optional<JsonNode> root = readJson(text, problems);
   if (!root || !decodeValue(*root, Notes{}, Place(), problems, news) || !problems.empty()) return std::nullopt;
-  return news;
+  const bool isSound = news.pictures.empty() ? news.drawn.has_value() : bytesOf(news.pictures).has_value();
+  return isSound ? std::optional(std::move(news)) : std::nullopt;
 }
 
 } // namespace gnomon

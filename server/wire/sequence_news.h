@@ -39,7 +39,7 @@ struct SequenceNews {
 
 std::string textOf(const SequenceNews& news);
 
-/// Nothing where the text is no such news.
+/// Nothing where the text is no such news, or its pictures can't be a frame's (frame_pictures.h).
 std::optional<SequenceNews> readSequenceNews(std::string_view text);
 
 // The rows of these; see fields.h.

@@ -1,4 +1,3 @@
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/elapsed.h"
@@ -68,11 +67,6 @@ Result<FrameFile> frameFile(Frame frame, ImageFormat format, std::string_view me
     file.body = multipartBody(frame, *pictures, format, boundary);
   } else {
     file.body = jsonBody(std::move(frame), *pictures, format);
-  }
-  constexpr std::size_t kMostBytes = std::numeric_limits<std::int32_t>::max();
-  if (file.body.size() > kMostBytes) {
-    return Problem{ProblemCode::tooLarge, "/views", "The frame's file is too large to be sent.",
-                   std::to_string(kMostBytes) + " bytes", std::to_string(file.body.size()) + " bytes"};
   }
   return file;
 }

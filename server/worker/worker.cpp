@@ -39,6 +39,11 @@ Problem tooLongProblem(std::size_t bytes) {
           std::to_string(Channel::kMostText) + " bytes", std::to_string(bytes) + " bytes"};
 }
 
+Problem tooLargeProblem(std::size_t bytes) {
+  return {ProblemCode::tooLarge, "", "The result of this request is too large to be sent.",
+          std::to_string(kMostResultBytes) + " bytes", std::to_string(bytes) + " bytes"};
+}
+
 /// The message with an outcome, in a form that fits: where its problems are too many, it has only the first of them.
 std::string messageOf(Outcome outcome) {
   const std::uint64_t number = outcome.number;
@@ -201,6 +206,7 @@ class Worker {
   void carry(const OrderCall& call, const std::atomic<std::size_t>& tooLong) {
     Answer answer = carryOut(*context_, call);
     if (tooLong > 0) answer = {.problems = {tooLongProblem(tooLong)}};
+    if (answer.body.size() > kMostResultBytes) answer = {.problems = {tooLargeProblem(answer.body.size())}};
     Outcome outcome{.number = call.order.number,
                     .problems = std::move(answer.problems),
                     .damaged = answer.damaged,

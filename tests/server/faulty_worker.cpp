@@ -2,21 +2,28 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <fcntl.h>
 #include <functional>
 #include <map>
 #include <sys/syscall.h>
+#include <sys/eventfd.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 #include "server/system/file_descriptor.h"
+#include "server/wire/answers.h"
 #include "server/wire/channel.h"
 #include "server/wire/messages.h"
+#include "server/wire/sequence_news.h"
 #include "server/worker/worker.h"
 #include "tests/server/worker/escapes.h"
 
-/// A worker that goes wrong on request: a real one behind a relay that looks for the name of a fault in the text of
-/// each order. What has none is carried out as ever.
+/// A worker that goes wrong on request: a real one behind a relay that looks for the name of a fault, or of a lie, in
+/// the text of each order. What has none is carried out as ever.
 namespace gnomon {
 namespace {
 
@@ -29,8 +36,10 @@ namespace {
   }
 }
 
-void sendGarbage(Channel& front) {
-  front.send("{\"outcome\": [}");
+/// A result of the type that was asked for.
+void sendResult(Channel& front, const Order& order, const FileDescriptor& file) {
+  front.send(textOf(ToFront{.outcome = Outcome{.number = order.number, .contentType = resultType(order)}}),
+             std::array{file.get()});
 }
 
 /// Everything that a worker which was taken over may try, on the thread that was first: the system's rules for files
@@ -44,19 +53,111 @@ void tryEscapes(int) {
   std::fputs("escape: tried all\n", stderr);
 }
 
-void escape(Channel&) {
-  ::syscall(SYS_tgkill, ::getpid(), ::getpid(), SIGUSR1);
-} // and the order is never carried out
+void sendNews(Channel& front, const Order& order, std::vector<PictureNews> pictures) {
+  const std::string news = textOf(SequenceNews{.pictures = std::move(pictures)});
+  front.send(textOf(ToFront{.event = OrderEvent{order.number, std::string(kSequenceNews), news}}));
+}
 
-void swallow(Channel&) {} // neither carried out nor stopped
+FileDescriptor unsealedFile(off_t size) {
+  FileDescriptor file(::memfd_create("lie", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  return ::ftruncate(file.get(), size) == 0 ? std::move(file) : FileDescriptor();
+}
 
-const std::map<std::string, void (*)(Channel&)> kFaults{
-    {"fault-abort", [](Channel&) { std::abort(); }},
-    {"fault-loop", swallow},
-    {"fault-memory", [](Channel&) { eatMemory(); }},
-    {"fault-silence", [](Channel&) { std::raise(SIGSTOP); }},
-    {"fault-garbage", sendGarbage},
-    {"fault-escape", escape},
+/// Nothing but its size.
+FileDescriptor hollowFile() {
+  FileDescriptor file = unsealedFile(1 << 30);
+  ::fcntl(file.get(), F_ADD_SEALS, F_SEAL_SEAL | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE);
+  return file;
+}
+
+FileDescriptor pipeOf(std::string_view bytes) {
+  std::array<int, 2> ends{};
+  if (::pipe(ends.data()) != 0) return {};
+  const FileDescriptor writing(ends[1]);
+  writeAll(writing, asBytes(bytes));
+  return FileDescriptor(ends[0]);
+}
+
+FileDescriptor sealedFile(std::string_view bytes) {
+  return *memoryFile(asBytes(bytes));
+}
+
+using Fault = std::function<void(Channel& front, const Order& order)>;
+
+/// What a worker does whose parser was taken over, beside the order that it was given.
+const std::map<std::string, Fault> kFaults{
+    {"fault-abort", [](Channel&, const Order&) { std::abort(); }},
+    {"fault-loop", [](Channel&, const Order&) {}}, // neither carried out nor stopped
+    {"fault-memory", [](Channel&, const Order&) { eatMemory(); }},
+    {"fault-silence", [](Channel&, const Order&) { std::raise(SIGSTOP); }},
+    // The order is never carried out.
+    {"fault-escape", [](Channel&, const Order&) { ::syscall(SYS_tgkill, ::getpid(), ::getpid(), SIGUSR1); }},
+    {"fault-garbage", [](Channel& front, const Order&) { front.send("{\"outcome\": [}"); }},
+    {"lie-pipe", [](Channel& front, const Order& order) { sendResult(front, order, pipeOf("bytes")); }},
+    {"lie-eventfd",
+     [](Channel& front, const Order& order) { sendResult(front, order, FileDescriptor(::eventfd(1, 0))); }},
+    {"lie-unsealed", [](Channel& front, const Order& order) { sendResult(front, order, unsealedFile(5)); }},
+    {"lie-hollow", [](Channel& front, const Order& order) { sendResult(front, order, hollowFile()); }},
+    {"lie-nothing",
+     [](Channel& front, const Order& order) {
+       front.send(textOf(ToFront{.outcome = Outcome{.number = order.number, .contentType = resultType(order)}}));
+     }},
+    {"lie-type",
+     [](Channel& front, const Order& order) {
+       front.send(textOf(ToFront{.outcome = Outcome{.number = order.number, .contentType = "text/html"}}),
+                  std::array{sealedFile("<p>").get()});
+     }},
+    {"lie-head",
+     [](Channel& front, const Order& order) {
+       front.send(textOf(ToFront{.outcome = Outcome{.number = order.number,
+                                                    .contentType = resultType(order),
+                                                    .stages = {{"shade\r\nSet-Cookie: a=b", 1}}}}),
+                  std::array{sealedFile("bytes").get()});
+     }},
+    {"lie-number",
+     [](Channel& front, const Order& order) {
+       front.send(textOf(ToFront{.outcome = Outcome{.number = order.number + 1'000'000, .problems = {Problem{}}}}));
+     }},
+    {"lie-finished",
+     [](Channel& front, const Order&) {
+       front.send(textOf(ToFront{.event = OrderEvent{0, "progress", "{}"}}));
+     }},
+    {"lie-refusal", [](Channel& front, const Order&) { front.send(textOf(ToFront{.refusal = Refusal{}})); }},
+    {"lie-start", [](Channel& front, const Order&) { front.send(textOf(ToFront{.ready = RendererInfo{}})); }},
+    {"lie-map",
+     [](Channel& front, const Order&) {
+       const std::string key = std::string(64, 'a') + "-" + std::string(64, 'b');
+       front.send(textOf(ToFront{.made = LightMapMade{key}}), std::array{sealedFile("map").get()});
+     }},
+    {"lie-own-map",
+     [](Channel& front, const Order& order) {
+       front.send(textOf(ToFront{.made = LightMapMade{order.scene + "-" + std::string(64, 'b')}}),
+                  std::array{pipeOf("map").get()});
+     }},
+    {"lie-giant",
+     [](Channel&, const Order&) {
+       const std::string text(100'000, 'i');
+       ::send(kWorkerChannel, text.data(), text.size(), 0);
+     }},
+    {"lie-wrap",
+     [](Channel& front, const Order& order) { // 5 = 2^64 - 1 + 6
+       sendNews(front, order, {{"color", "image/png", ~std::uint64_t{0}}, {"depth", "image/png", 6}});
+       sendResult(front, order, sealedFile("12345"));
+     }},
+    {"lie-short",
+     [](Channel& front, const Order& order) {
+       sendNews(front, order, {{"color", "image/png", 6}});
+       sendResult(front, order, sealedFile("12345"));
+     }},
+    {"lie-view",
+     [](Channel& front, const Order& order) {
+       sendNews(front, order, {{"color\r\nX: y", "image/png", 5}});
+       sendResult(front, order, sealedFile("12345"));
+     }},
+    {"lie-damaged",
+     [](Channel& front, const Order& order) {
+       front.send(textOf(ToFront{.outcome = Outcome{.number = order.number, .damaged = true}}));
+     }},
 };
 
 /// True where the order's text names a fault, which has happened then.
@@ -66,7 +167,7 @@ bool happened(const Packet& packet, Channel& front) {
   const Bytes request = readFile(packet.files[1], kLimits.maxSpecBytes).value_or(Bytes());
   for (const auto& [name, fault] : kFaults) {
     if (asText(request).find(name) == std::string_view::npos) continue;
-    fault(front);
+    fault(front, *message->order);
     return true;
   }
   return false;

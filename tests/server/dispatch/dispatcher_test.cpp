@@ -42,7 +42,7 @@ TEST_F(DispatcherTest, DrawsFrames) {
   const TaskResult result = dispatcher->run(frame(), kStays);
   ASSERT_EQ(problemOf(result), "");
   ASSERT_TRUE(result.body);
-  EXPECT_EQ(asText(*readFile(*result.body, 1 << 20)).substr(1, 3), "PNG");
+  EXPECT_EQ(result.body->view().substr(1, 3), "PNG");
   EXPECT_EQ(result.outcome.stages.front().stage, "queue");
 }
 

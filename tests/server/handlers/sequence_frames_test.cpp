@@ -96,7 +96,7 @@ TEST_F(SequenceFramesTest, ThoseThatNobodyTakesHoldNoMoreThanThereIs) {
     sequences.push_back(sequence(6));
     held.push_back(sequences.back()->next([] {}));
     ASSERT_EQ(problemOf(held.back()), "");
-    EXPECT_EQ(held.back().room->held(), held.back().bytes.size());
+    EXPECT_EQ(held.back().room->held(), held.back().pictures.bytes().size());
   }
   EXPECT_LE(room_.used(), room_.total());
   DoneFrame refused = sequence(1)->next([] {});
@@ -111,7 +111,7 @@ TEST_F(SequenceFramesTest, ThoseThatNobodyTakesHoldNoMoreThanThereIs) {
         const DoneFrame frame = frames->next([] {});
         ASSERT_EQ(problemOf(frame), "");
         EXPECT_EQ(frame.index, index);
-        EXPECT_GT(frame.bytes.size(), kFrameBytes);
+        EXPECT_GT(frame.pictures.bytes().size(), kFrameBytes);
       }
     });
   }
@@ -123,7 +123,7 @@ TEST_F(SequenceFramesTest, OneThatFindsNoRoomIsDroppedAndDrawnAgainWithTheSameBy
   const std::string patches = R"({}, {"width": 128})";
   const auto whole = sequenceOf(patches);
   whole->next([] {});
-  const Bytes expected = whole->next([] {}).bytes;
+  const SharedBytes expected = whole->next([] {}).pictures.bytes();
 
   const auto frames = sequenceOf(patches);
   frames->next([] {});
@@ -133,7 +133,7 @@ TEST_F(SequenceFramesTest, OneThatFindsNoRoomIsDroppedAndDrawnAgainWithTheSameBy
   std::thread reader([&] {
     const DoneFrame second = frames->next([] {});
     EXPECT_EQ(problemOf(second), "");
-    EXPECT_EQ(second.bytes, expected);
+    EXPECT_TRUE(second.pictures.bytes() == expected.view());
   });
   const auto end = Clock::now() + 30s;
   const auto isDropped = [&] { return drawn_ > atFirst && room_.used() == others->held(); };

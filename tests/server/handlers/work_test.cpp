@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
-#include "server/system/file_descriptor.h"
+#include "server/system/shared_bytes.h"
 
 namespace gnomon {
 namespace {
@@ -14,18 +12,22 @@ using namespace std::chrono_literals;
 
 const std::function<bool()> kWanted = [] { return false; };
 
-TaskResult resultOf(FileDescriptor body) {
+TaskResult resultOf(SharedBytes body) {
   TaskResult result;
   result.outcome.contentType = "image/png";
   result.body = std::move(body);
   return result;
 }
 
-/// A file that says it has so many bytes, and takes no memory until they are read.
-FileDescriptor hollowFile(std::size_t bytes) {
-  FileDescriptor file(::memfd_create("hollow", MFD_CLOEXEC));
-  EXPECT_EQ(::ftruncate(file.get(), static_cast<off_t>(bytes)), 0);
-  return file;
+/// Nothing of what a worker sent, but its size.
+SharedBytes unread(std::size_t bytes) {
+  return {nullptr, {static_cast<const char*>(nullptr), bytes}};
+}
+
+TEST(ServerTiming, NoTimeIsReadBeyondItsText) {
+  const std::string text = serverTiming({{"queue", 1e308}, {"load", 1}});
+  EXPECT_EQ(text.find('\0'), std::string::npos);
+  EXPECT_LT(text.size(), 80u);
 }
 
 TEST(ServerTiming, TellsTheStages) {
@@ -41,7 +43,7 @@ TEST(WarningsField, IsJsonInAsciiOfALengthThatProxiesPass) {
 }
 
 TEST(ReplyOf, APictureCarriesItsWarnings) {
-  TaskResult result = resultOf(hollowFile(4));
+  TaskResult result = resultOf("file");
   result.outcome.warnings = {"The picture shows nothing."};
   const HttpReply reply = replyOf(std::move(result), "id");
   const std::pair<std::string, std::string> wanted{"Gnomon-Warnings", R"(["The picture shows nothing."])"};
@@ -69,7 +71,7 @@ TEST(ReplyRoom, IsTakenBeforeAnythingIsRead) {
   ByteBudget budget(1 << 20);
   ByteLease others(budget);
   ASSERT_TRUE(others.grow(1));
-  TaskResult result = resultOf(hollowFile(kTooMuchToRead));
+  TaskResult result = resultOf(unread(kTooMuchToRead));
   const auto begun = Clock::now();
   takeRoom(result, budget, begun + 20ms, kWanted);
   EXPECT_GE(Clock::now() - begun, 20ms) << "it waits for others to be taken";
@@ -84,7 +86,7 @@ TEST(ReplyRoom, IsTakenBeforeAnythingIsRead) {
 TEST(ReplyRoom, IsHeldUntilTheReplyGoes) {
   ByteBudget budget(3 << 20);
   const Bytes picture(1 << 20, 'x');
-  TaskResult result = resultOf(*memoryFile(picture));
+  TaskResult result = resultOf(picture);
   takeRoom(result, budget, Clock::now(), kWanted);
   EXPECT_EQ(budget.used(), picture.size());
   {
@@ -102,14 +104,14 @@ TEST(ReplyRoom, IsNotNeededByWhatIsSmall) {
   ByteBudget budget(1 << 20);
   ByteLease others(budget);
   ASSERT_TRUE(others.grow(budget.total()));
-  TaskResult result = resultOf(*memoryFile(Bytes(1000, 'x')));
+  TaskResult result = resultOf(Bytes(1000, 'x'));
   takeRoom(result, budget, Clock::now(), kWanted);
   EXPECT_EQ(replyOf(std::move(result), "id").status, 200);
 }
 
 TEST(ReplyRoom, OneReplyMayBeLargerThanAllOfIt) {
   ByteBudget budget(1 << 17);
-  TaskResult result = resultOf(*memoryFile(Bytes(1 << 20, 'x')));
+  TaskResult result = resultOf(Bytes(1 << 20, 'x'));
   takeRoom(result, budget, Clock::now(), kWanted);
   EXPECT_EQ(result.room.held(), budget.total());
 }
@@ -118,7 +120,7 @@ TEST(ReplyRoom, IsNotWaitedForOnceNobodyWantsIt) {
   ByteBudget budget(1 << 20);
   ByteLease others(budget);
   ASSERT_TRUE(others.grow(budget.total()));
-  TaskResult result = resultOf(hollowFile(1 << 20));
+  TaskResult result = resultOf(unread(1 << 20));
   takeRoom(result, budget, Clock::now() + 1h, [] { return true; });
   EXPECT_FALSE(result.body);
 }

@@ -52,7 +52,7 @@ class JobQueueTest : public ::testing::TestWithParam<TestedQueue> {
   std::string picture(const std::string& job, int index) {
     const auto found = queue_->frame(job, index);
     EXPECT_TRUE(found);
-    return found && *found ? std::string(asText((*found)->bytes)) : "none";
+    return found && *found ? std::string((*found)->pictures.bytes()) : "none";
   }
 
   JobLimits limits_;
@@ -77,7 +77,7 @@ TEST_P(JobQueueTest, ItsSizeIsThatOfItsJobs) {
   EXPECT_EQ(turn.job, "job");
   expect(2, 5, requests);
   finish(turn);
-  const std::uint64_t picture = drawnFrame("job0").bytes.size();
+  const std::uint64_t picture = drawnFrame("job0").pictures.bytes().size();
   expect(2, 4, requests + picture);
   ASSERT_TRUE(queue_->fail(take(), {{ProblemCode::internal, "", "It did not work.", "", ""}}));
   expect(2, 2, requests + picture); // the turn was that of the other job
@@ -113,7 +113,7 @@ TEST_P(JobQueueTest, EveryFrameIsTakenOnceAndKept) {
   ASSERT_TRUE(frame && *frame);
   const FrameNote& note = (*frame)->note;
   EXPECT_EQ(picture("job", 1), "job1");
-  EXPECT_EQ(note.contentKey, "key of job1");
+  EXPECT_EQ(note.contentKey, contentKeyOf("job1"));
   EXPECT_EQ(note.warnings, std::vector<std::string>{"a warning"});
   EXPECT_EQ(note.pictures.at(0).contentType, "image/png");
   EXPECT_EQ(note.stages.at(0).milliseconds, 1.5);

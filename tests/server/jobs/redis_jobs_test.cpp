@@ -1,8 +1,11 @@
 #include "server/jobs/redis_jobs.h"
 
+#include <functional>
 #include <gtest/gtest.h>
 #include <thread>
 
+#include "protocol/json/json_codec.h"
+#include "server/jobs/job_text.h"
 #include "tests/server/jobs/tested_queue.h"
 #include "tests/support/redis_server.h"
 
@@ -78,7 +81,7 @@ TEST_F(RedisJobsTest, WhileRedisIsAwayEverythingIsUnavailableAndNothingIsLost) {
   ASSERT_TRUE(third && *third);
   ASSERT_TRUE(queue_->finish(**third, drawnFrame("third")));
   EXPECT_EQ(progress("job")->state, JobState::done);
-  EXPECT_EQ(asText((*queue_->frame("job", (*first)->index))->bytes), "first");
+  EXPECT_EQ((*queue_->frame("job", (*first)->index))->pictures.bytes(), "first");
 }
 
 TEST_F(RedisJobsTest, AFrameOfAProcessThatDiedIsTakenOverByAnother) {
@@ -126,6 +129,91 @@ TEST_F(RedisJobsTest, WhatWasRemovedLeavesNoKey) {
   redis::Redis redis(options_);
   const auto bytes = redis.ask({"GET", "gnomon:jobs:bytes"}, {Clock::now() + 10s});
   EXPECT_EQ(bytes->text, "0");
+}
+
+/// What a frame's note in Redis is replaced by, and whether the frame is still given.
+class PoisonedRedisTest : public RedisJobsTest {
+ protected:
+  void SetUp() override {
+    RedisJobsTest::SetUp();
+    if (IsSkipped()) return;
+    ASSERT_TRUE(queue_->put(jobOfFrames("job", 2)));
+    const auto turn = queue_->take(5s);
+    ASSERT_TRUE(turn && *turn && queue_->finish(**turn, drawnFrame("picture")));
+    index_ = (*turn)->index;
+  }
+
+  redis::Reply ask(const redis::Command& command) {
+    redis::Redis redis(options_);
+    auto reply = redis.ask(command, {Clock::now() + 10s});
+    return reply ? *std::move(reply) : redis::Reply{};
+  }
+
+  std::string frameKey() const { return "gnomon:jobs:frame:job:" + std::to_string(index_); }
+
+  /// Sets a field of the job, asks for it, and puts the field back.
+  std::string problemWith(const std::string& field, const std::string& value) {
+    const std::string before = ask({"HGET", "gnomon:jobs:job:job", field}).text;
+    ask({"HSET", "gnomon:jobs:job:job", field, value});
+    const auto found = queue_->find("job");
+    EXPECT_EQ(queue_->list("ann")->size(), found ? 1u : 0u) << "and no list has it";
+    ask({"HSET", "gnomon:jobs:job:job", field, before});
+    return found ? "" : std::string(problemName(found.problems()[0].code));
+  }
+
+  int index_ = 0;
+};
+
+TEST_F(PoisonedRedisTest, ANoteThatDoesNotFitItsPicturesIsAProblem) {
+  const std::string good = ask({"HGET", frameKey(), "note"}).text;
+  const FrameNote written = *readFrameNote(good);
+  const auto problem = [&](const std::function<void(FrameNote&)>& change) {
+    FrameNote changed = written;
+    change(changed);
+    ask({"HSET", frameKey(), "note", textOf(changed)});
+    const auto frame = queue_->frame("job", index_);
+    ask({"HSET", frameKey(), "note", good});
+    return frame ? "" : std::string(problemName(frame.problems()[0].code));
+  };
+  EXPECT_EQ(problem([](FrameNote&) {}), "");
+  EXPECT_EQ(problem([](FrameNote& note) { note.pictures[0].bytes = 1'000'000; }), "internal");
+  EXPECT_EQ(problem([](FrameNote& note) { note.pictures[0].bytes -= 1; }), "internal");
+  EXPECT_EQ(problem([](FrameNote& note) {
+              note.pictures = {{"color", "image/png", ~0ull}, {"depth", "image/png", 8}}; // 7 = "picture"
+            }),
+            "internal");
+  EXPECT_EQ(problem([](FrameNote& note) { note.pictures.clear(); }), "internal");
+  EXPECT_EQ(problem([](FrameNote& note) { note.pictures[0].view = "color\r\nX: y"; }), "internal");
+  EXPECT_EQ(problem([](FrameNote& note) { note.pictures[0].contentType = "image/png\r\nX: y"; }), "internal");
+  EXPECT_EQ(problem([](FrameNote& note) { note.contentKey = "a\"\r\nX: y"; }), "internal");
+  EXPECT_EQ(problem([](FrameNote& note) { note.stages = {{"a\r\nX: y", 1}}; }), "internal");
+  EXPECT_EQ(problem([](FrameNote& note) { note.milliseconds = -1; }), "internal");
+  ask({"HSET", frameKey(), "pictures", "pictures"});
+  EXPECT_FALSE(queue_->frame("job", index_)) << "the bytes are longer than the note says";
+}
+
+TEST_F(PoisonedRedisTest, AJobWhoseNumbersAreNoneIsAProblem) {
+  EXPECT_EQ(problemWith("done", "2"), "");
+  for (const char* number : {"", "x", "-1", "3", "1x", "99999999999999999999"}) {
+    EXPECT_EQ(problemWith("done", number), "internal") << number;
+  }
+  EXPECT_EQ(problemWith("count", "0"), "internal");
+  EXPECT_EQ(problemWith("count", "2000000000"), "internal");
+  EXPECT_EQ(problemWith("first", "-1"), "internal");
+  EXPECT_EQ(problemWith("bytes", "18446744073709551615"), "internal");
+  EXPECT_EQ(problemWith("created", "9223372036854775807"), "internal");
+  EXPECT_EQ(problemWith("state", "nothing"), "internal");
+  EXPECT_EQ(problemWith("state", "failed"), "internal") << "its list of problems is empty";
+}
+
+TEST_F(PoisonedRedisTest, AFrameWhoseIndexIsNoneIsNotDrawn) {
+  ask({"XADD", "gnomon:jobs:stream:job", "*", "index", "-1", "carried", textOf(Carried{})});
+  std::vector<std::string> ends;
+  for (int i = 0; i < 2; ++i) {
+    const auto turn = queue_->take(5s);
+    ends.push_back(!turn ? std::string(problemName(turn.problems()[0].code)) : *turn ? "taken" : "none");
+  }
+  EXPECT_EQ(ends, (std::vector<std::string>{"taken", "internal"}));
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "protocol/base/bytes.h"
 #include "server/jobs/job_queue.h"
 
 namespace gnomon {
@@ -30,15 +31,23 @@ inline NewJob jobOfFrames(const std::string& id, int count, const std::string& c
   return {.id = id, .key = client, .client = client, .scene = "scene", .request = "{}", .count = count};
 }
 
+/// The content key of drawnFrame(picture).
+inline std::string contentKeyOf(const std::string& picture) {
+  Sha256 hash;
+  hash.add(picture);
+  return hash.hex();
+}
+
 /// What a frame might look like.
 inline JobFrame drawnFrame(const std::string& picture, Carried carried = {}) {
-  return {.note = {.contentKey = "key of " + picture,
+  const std::vector<PictureNews> pictures{{"color", "image/png", picture.size()}};
+  return {.note = {.contentKey = contentKeyOf(picture),
                    .carried = std::move(carried),
                    .warnings = {"a warning"},
                    .stages = {{"shade", 1.5}},
                    .milliseconds = 2.5,
-                   .pictures = {{"color", "image/png", picture.size()}}},
-          .bytes = Bytes(picture.begin(), picture.end())};
+                   .pictures = pictures},
+          .pictures = *FramePictures::of(pictures, picture)};
 }
 
 } // namespace gnomon
