@@ -165,14 +165,37 @@ def messages(folder):
         {"outcome": {"number": 1, "problems": [{"code": "tooLarge", "pointer": "/views", "detail": "No."}],
                      "stages": {"load": 1.5, "shade": 2}}},
         {"event": {"number": 1, "name": "progress", "data": "{}"}},
-        {"beat": {"scenes": 1, "sceneBytes": 100}},
+        {"beat": {"scenes": 1, "sceneBytes": 100, "costFactors": [1e-6] * 11}},
         {"ready": {"backend": "cpu", "software": True, "device": "cpu"}},
-        {"refusal": {"problems": []}},
-        {"request": {"number": 1, "key": "a-b"}},
-        {"made": {"key": "a-b"}},
+        {"refusal": {"problems": [{"code": "backend", "pointer": "", "detail": "No."}]}},
+        {"request": {"number": 1, "key": "ab" * 32 + "-" + "cd" * 32}},
+        {"made": {"key": "ab" * 32 + "-" + "cd" * 32}},
     )
     for text in texts:
         write(folder / "messages", next(iter(text)), json.dumps(text).encode())
+
+
+def answers(folder):
+    """What workers say to an order, line by line, and notes of frames: behind a byte that chooses the order."""
+    picture = {"view": "color", "contentType": "image/png", "bytes": 5, "width": 0, "height": 0}
+    news = [{"drawn": {"carried": {"depthRanges": []}, "warnings": ["None."]}, "pictures": []},
+            {"pictures": [picture, {**picture, "view": "depth"}]}]  # fmt: skip
+    events = [{"event": {"number": 1, "name": "news", "data": json.dumps(each)}} for each in news]
+    stages = {"queue": 1, "shade": 2.5}
+    outcome = {"number": 1, "contentType": "application/octet-stream", "stages": stages, "warnings": ["None."]}
+    frame = [*events, {"outcome": outcome}]
+    problem = [{"outcome": {"number": 1, "problems": [{"code": "busy", "pointer": "", "detail": "No."}]}}]
+    row = {"event": {"number": 1, "name": "row", "data": "{}"}}
+    kinds = 9  # as the target has them, in each of its media types
+    for name, choice, messages_sent in (("frame", 7, frame), ("problem", 1, problem), ("row", 3 + 3 * kinds, [row])):
+        text = "\n".join(json.dumps(message) for message in messages_sent) + "\nbody"
+        write(folder / "replies", name, bytes([2 * choice]) + text.encode())
+    png = [{"outcome": {**outcome, "contentType": "image/png"}}]
+    write(folder / "replies", "png", bytes([2]) + json.dumps(png[0]).encode() + b"\nbody")
+    note = {"contentKey": "ab" * 32, "carried": {"depthRanges": []}, "warnings": [], "stages": stages,
+            "milliseconds": 3, "pictures": [picture]}  # fmt: skip
+    for more in (0, 1):
+        write(folder / "replies", f"note_{more}", bytes([1 + 2 * more]) + json.dumps(note).encode())
 
 
 def replies(folder):
@@ -203,6 +226,7 @@ def main(folder, scenes, assets=None):
     forms(folder, scenes)
     bodies(folder)
     messages(folder)
+    answers(folder)
     replies(folder)
     grids(folder)
     choices(folder)
