@@ -39,7 +39,8 @@ struct Task {
   bool holdsRenderer = false; ///< draws for so long that others of its worker would wait
   std::optional<FrameCost>
       cost{};                ///< of a frame that has the whole time of a request: its end teaches what frames take
-  std::string client;        ///< its address: tasks of different clients take turns
+  std::string client;         ///< its address: tasks of different clients take turns
+  Holder holder{};            ///< of the room for the result's body
   std::string affinityKey{}; ///< tasks whose scenes have much in common; they prefer one worker. Empty = the scene's id
 };
 

@@ -125,7 +125,7 @@ HttpReply getJobResult(Services& services, RouteCall call) {
   const auto framesPerSecond = framesPerSecondOf(services, job->id);
   if (!framesPerSecond) return jobProblem(framesPerSecond.problems(), call);
   auto frames = std::make_shared<JobFrames>(services, *std::move(job), call.request.arrived + services.sequenceTimeout,
-                                            call.clientGone);
+                                            holderOf(call.request), call.clientGone);
   const SequenceReport report{.framesPerSecond = *framesPerSecond, .renderer = services.workers.info()};
   return headOnly(
       sequenceReply(sequenceForm(kSequenceForms[*form], call), call, std::move(frames), std::nullopt, report), call);

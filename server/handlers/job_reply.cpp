@@ -79,10 +79,12 @@ Result<JobProgress> newsOf(Services& services, const JobProgress& seen, Clock::t
   }
 }
 
-JobFrames::JobFrames(Services& services, JobProgress job, Clock::time_point until, std::function<bool()> clientGone)
+JobFrames::JobFrames(Services& services, JobProgress job, Clock::time_point until, Holder holder,
+                     std::function<bool()> clientGone)
     : services_(services),
       job_(std::move(job)),
       until_(until),
+      holder_(std::move(holder)),
       clientGone_(std::move(clientGone)),
       next_(job_.first),
       carried_(job_.carried) {}
@@ -124,7 +126,7 @@ Result<JobFrame> JobFrames::read(ByteLease& room) {
 }
 
 DoneFrame JobFrames::next(const std::function<void()>& waiting) {
-  DoneFrame done{.index = next_, .room = std::make_unique<ByteLease>(services_.replyBytes)};
+  DoneFrame done{.index = next_, .room = std::make_unique<ByteLease>(services_.replyBytes, holder_)};
   done.problems = await(waiting);
   if (!done.problems.empty()) return done;
   auto frame = read(*done.room);

@@ -28,7 +28,8 @@ Result<JobProgress> newsOf(Services& services, const JobProgress& seen, Clock::t
 class JobFrames final : public FrameSource {
  public:
   /// `until`: when waiting ends with a problem.
-  JobFrames(Services& services, JobProgress job, Clock::time_point until, std::function<bool()> clientGone);
+  JobFrames(Services& services, JobProgress job, Clock::time_point until, Holder holder,
+            std::function<bool()> clientGone);
 
   bool atEnd() const override { return next_ == job_.count; }
   int count() const override { return job_.count; }
@@ -41,6 +42,7 @@ class JobFrames final : public FrameSource {
   Services& services_;
   JobProgress job_; ///< as it was last seen
   const Clock::time_point until_;
+  const Holder holder_;
   const std::function<bool()> clientGone_;
   int next_;
   Carried carried_; ///< of the frames before the next

@@ -116,7 +116,7 @@ void JobRunners::draw(const FrameTurn& turn) {
     }
     return !isWanted || stop_.raised();
   };
-  ByteLease room(services_.replyBytes);
+  ByteLease room(services_.replyBytes, {{turn.client, turn.client}, turn.job});
   const auto takeRoom = [&](std::size_t bytes) {
     return room.growBy(std::min(bytes, services_.replyBytes.total()), Clock::time_point::max(), gone) || gone();
   };

@@ -177,7 +177,7 @@ StreamResult sendAllFrames(SequenceForm& form, const BodySink& sink, FrameSource
       return {};
     }
   }
-  return {.problem = "The client left."};
+  return {}; // the connection notes why not everything was sent
 }
 
 } // namespace

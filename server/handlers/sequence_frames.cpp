@@ -59,6 +59,7 @@ Problems draw(Services& services, const FrameToDraw& call, DoneFrame& frame) {
   while (true) {
     if (call.awaitRoom && !call.awaitRoom()) {
       frame.result.refusal = TaskRefusal::memory;
+      frame.result.outcome.retryAfterSeconds = services.replyBytes.retryAfterSeconds();
       return {noReplyRoom()};
     }
     task.deadline = std::min(call.task.deadline, Clock::now() + services.requestTimeout);
@@ -121,8 +122,8 @@ bool SequenceFrames::mayBegin() const {
   if (inWork_.empty()) return true;
   const FrameInWork& before = *inWork_.back();
   if (!before.isDrawn || before.lacksRoom || !before.frame.problems.empty()) return false;
-  const ByteBudget& budget = services_.replyBytes; // ahead of its time only where its bytes are likely to find room
-  return expected_ > 0 && budget.used() + 2 * expected_ <= budget.total();
+  // Ahead of its time only where its bytes are likely to find room.
+  return expected_ > 0 && services_.replyBytes.hasRoom(task_.holder, 2 * expected_);
 }
 
 void SequenceFrames::begin() {
@@ -136,7 +137,7 @@ void SequenceFrames::begin() {
   auto inWork = std::make_unique<FrameInWork>();
   inWork->frame.index = call.index;
   inWork->frame.carried = call.before;
-  inWork->room = std::make_unique<ByteLease>(services_.replyBytes);
+  inWork->room = std::make_unique<ByteLease>(services_.replyBytes, task_.holder);
   inWork->expected = inWork_.empty() ? expected_ : 0;
   inWork_.push_back(std::move(inWork));
   FrameInWork& begun = *inWork_.back();

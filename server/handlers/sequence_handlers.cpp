@@ -149,7 +149,7 @@ HttpReply postSequence(Services& services, RouteCall call) {
     }
   }
   if (!isVideo) return sequenceReply(sequenceForm(type, call), call, std::move(frames), std::move(first), report);
-  auto video = videoForm(settings, *first, services.videoMemory);
+  auto video = videoForm(settings, *first, services.videoMemory, holderOf(call.request));
   if (!video) return refusal(video.problems().front(), RefusalReason::memory, requestId);
   return sequenceReply(*std::move(video), call, std::move(frames), std::move(first), report);
 }

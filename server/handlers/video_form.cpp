@@ -44,7 +44,8 @@ std::string bytesText(std::size_t bytes) {
 
 } // namespace
 
-Result<TypedForm> videoForm(const VideoSettings& settings, const DoneFrame& first, ByteBudget& memory) {
+Result<TypedForm> videoForm(const VideoSettings& settings, const DoneFrame& first, ByteBudget& memory,
+                            const Holder& holder) {
   const PictureNews* const picture = first.pictures.raw();
   if (picture == nullptr) return noRawPicture();
   const std::size_t bytes = videoBytes(picture->width, picture->height);
@@ -53,7 +54,7 @@ Result<TypedForm> videoForm(const VideoSettings& settings, const DoneFrame& firs
                    "Encoding a video of this size takes more memory than all videos may (--video-memory-bytes).",
                    bytesText(memory.total()), bytesText(bytes)};
   }
-  auto lease = std::make_unique<ByteLease>(memory);
+  auto lease = std::make_unique<ByteLease>(memory, holder);
   if (!lease->grow(bytes)) {
     return Problem{ProblemCode::busy, "", "Other videos use the memory for videos.", bytesText(memory.total()), ""};
   }

@@ -52,6 +52,7 @@ Task taskFor(const RouteCall& call, OrderKind kind, std::string sceneId, StoredB
   task.bundle = std::move(bundle.file);
   task.request = std::move(request);
   task.client = call.request.client.name;
+  task.holder = holderOf(call.request);
   task.order.traceId = call.request.trace.traceId;
   if (const auto seconds = preferredWait(call.request)) {
     timeout = std::min<std::chrono::milliseconds>(timeout, std::chrono::seconds(*seconds));
@@ -92,17 +93,19 @@ Result<Task> frameTask(const Services& services, const RouteCall& call, const st
   return task;
 }
 
-void takeRoom(TaskResult& result, ByteBudget& budget, Clock::time_point deadline,
+void takeRoom(TaskResult& result, ByteBudget& budget, const Holder& holder, Clock::time_point deadline,
               const std::function<bool()>& unwanted) {
   if (!result.outcome.problems.empty() || !result.body) return;
-  if (result.room.await(budget, result.body->size(), deadline, unwanted)) return;
+  if (result.room.await(budget, holder, result.body->size(), deadline, unwanted)) return;
   result.body.reset();
   result.outcome.problems = {noReplyRoom()};
+  result.outcome.retryAfterSeconds = budget.retryAfterSeconds();
   result.refusal = TaskRefusal::memory;
 }
 
 TaskResult runTask(Services& services, Task task, const std::function<bool()>& gone, const TaskEvents& events) {
   const std::string scene = task.order.scene;
+  const Holder holder = task.holder;
   const bool hasOwnRoom = task.order.kind == OrderKind::sequenceFrame;
   const auto allowed = std::chrono::duration_cast<std::chrono::seconds>(task.allowed).count();
   const auto bundle = task.bundle;
@@ -119,7 +122,7 @@ TaskResult runTask(Services& services, Task task, const std::function<bool()>& g
     if (problem.code == ProblemCode::deadlineExceeded) problem.limit = std::to_string(allowed) + " seconds";
   }
   const auto unwanted = [&] { return gone() || (services.cut != nullptr && services.cut->raised()); };
-  if (!hasOwnRoom) takeRoom(result, services.replyBytes, Clock::now() + services.replyRoom, unwanted);
+  if (!hasOwnRoom) takeRoom(result, services.replyBytes, holder, Clock::now() + services.replyRoom, unwanted);
   return result;
 }
 

@@ -43,7 +43,7 @@ Result<Task> frameTask(const Services& services, const RouteCall& call, const st
 
 /// Takes room for the body of a result. Where there is none by the deadline, or it is not wanted any more, the body is
 /// let go and the result is the problem of noReplyRoom().
-void takeRoom(TaskResult& result, ByteBudget& budget, Clock::time_point deadline,
+void takeRoom(TaskResult& result, ByteBudget& budget, const Holder& holder, Clock::time_point deadline,
               const std::function<bool()>& unwanted);
 
 /// Runs the task on this thread's behalf. A bundle that a worker calls damaged, and that is, is set aside, and becomes

@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <utility>
 
+#include "server/http/reply_sender.h"
 #include "server/http/socket_io.h"
 #include "server/system/log.h"
 
@@ -45,10 +46,11 @@ class Connection {
         context_(context),
         reader_(connection_.socket.get(), std::exchange(connection_.received, {})) {}
 
-  OpenConnection serve(const std::function<bool()>& mayStay) {
+  std::optional<OpenConnection> serve(const std::function<bool()>& mayStay) {
     for (auto length = headWaiting(); length; length = nextHead(mayStay)) {
       ++connection_.requests;
       if (!serveOne(*length)) {
+        if (isCut_) return std::nullopt;
         ::shutdown(connection_.socket.get(), SHUT_WR);
         connection_.ending = true;
         return std::move(connection_);
@@ -93,6 +95,7 @@ class Connection {
       return send(problemReply(request.problems(), record.id, {.read = RequestPart::head}), record, false, false);
     }
     request->client = client.identity;
+    holder_ = holderOf(*request);
     request->arrived = record.start;
     const bool bodyless = request->method == "HEAD";
 
@@ -105,12 +108,12 @@ class Connection {
     record.route = handler.route;
     HttpReply reply;
     {
-      ByteLease lease(context_.bodyBytes);
+      ByteLease lease(context_.bodyBytes, holder_, static_cast<std::size_t>(head->contentLength.value_or(0)));
       if (auto problem = receiveBody(*head, handler.body, *request, lease)) {
         const bool isBusy = problem->code == ProblemCode::busy; // other bodies use the memory
         const auto refusal = isBusy ? RefusalReason::memory : RefusalReason::none;
-        return send(problemReply({*problem}, record.id, {.read = RequestPart::body, .refusal = refusal}), record, false,
-                    bodyless);
+        const ProblemReplyOptions options{RequestPart::body, context_.bodyBytes.retryAfterSeconds(), refusal};
+        return send(problemReply({*problem}, record.id, options), record, false, bodyless);
       }
       record.requestBytes = request->body.size();
       watch_ = std::make_shared<ClientWatch>(connection_.socket.get(), head->isHttp11);
@@ -128,7 +131,7 @@ class Connection {
 
   std::optional<Problem> receiveBody(const RequestHead& head, const BodyRule& rule, HttpRequest& request,
                                      ByteLease& lease) {
-    if (auto refused = refuseBody(head, rule)) return refused;
+    if (auto refused = refuseBody(head, rule, context_.bodyBytes.total())) return refused;
     if (!head.hasBody()) return std::nullopt;
     if (head.expectsContinue) {
       sendAll(connection_.socket.get(), "HTTP/1.1 100 Continue\r\n\r\n", context_.limits.pace, &context_.cutReplies);
@@ -158,7 +161,7 @@ class Connection {
   /// For a reply beside those that other clients are taking; no longer than the server goes on. Handlers of large
   /// replies have taken it already, before they read them.
   bool awaitRoom(HttpReply& reply) {
-    return reply.room.await(context_.replyBytes, reply.body.size(), Clock::now() + context_.limits.replyRoom,
+    return reply.room.await(context_.replyBytes, holder_, reply.body.size(), Clock::now() + context_.limits.replyRoom,
                             [this] { return context_.cutBodies.raised(); });
   }
 
@@ -166,14 +169,15 @@ class Connection {
   bool sendAnswer(HttpReply reply, RequestRecord& record, bool keepAlive, bool bodyless) {
     watch_->end();
     if (watch_->left()) {
-      record.delivered = false;
+      record.delivery = Delivery::clientLeft;
       reply.status = kStatusClientLeft;
       reply.problem.clear();
       context_.ended(record, reply);
       return false;
     }
     if (!bodyless && !awaitRoom(reply)) {
-      reply = problemReply({noReplyRoom()}, record.id, {.refusal = RefusalReason::memory});
+      const int comeAgain = context_.replyBytes.retryAfterSeconds();
+      reply = problemReply({noReplyRoom()}, record.id, {RequestPart::whole, comeAgain, RefusalReason::memory});
     }
     return send(std::move(reply), record, keepAlive, bodyless);
   }
@@ -190,25 +194,40 @@ class Connection {
     constexpr std::size_t kOnePacket = 1400; // small replies leave in one piece
     if (withBody && reply.body.size() <= kOnePacket) head += reply.body;
     const bool bodyFollows = withBody && reply.body.size() > kOnePacket;
-    bool sent = sendAll(connection_.socket.get(), head, context_.limits.pace, &context_.cutReplies, bodyFollows);
-    if (sent && bodyFollows) {
-      sent = sendAll(connection_.socket.get(), reply.body, context_.limits.pace, &context_.cutReplies);
-    }
-    record.delivered = sent;
-    record.replyBytes = withBody && sent ? reply.body.size() : 0;
+    ReplySender sender = senderOf();
+    sender.send(head, bodyFollows);
+    if (bodyFollows) sender.send(reply.body);
+    const bool isSent = sender.delivery() == Delivery::whole;
+    record.replyBytes = withBody && isSent ? reply.body.size() : 0;
+    sent(sender.delivery(), record, reply);
+    return isSent && keepAlive;
+  }
+
+  ReplySender senderOf() {
+    return {connection_.socket.get(), TransferPace(context_.limits.pace, &context_.replyBytes, holder_),
+            &context_.cutReplies};
+  }
+
+  /// A client that did not take all of it is reset: it can't take what it has for a whole reply, and the kernel keeps
+  /// nothing for it.
+  void sent(Delivery delivery, RequestRecord& record, HttpReply& reply) {
+    record.delivery = delivery;
+    isCut_ = delivery != Delivery::whole;
+    if (isCut_) resetWhenClosed(connection_.socket.get());
+    if (delivery == Delivery::tooSlow) reply.refusal = RefusalReason::deadline;
+    if (delivery == Delivery::othersWaited) reply.refusal = RefusalReason::memory;
     context_.ended(record, reply);
-    return sent && keepAlive;
   }
 
   /// Its end is the connection's.
   bool sendStream(HttpReply reply, RequestRecord& record) {
     watch_->beginStream();
     addTrace(reply, record.trace);
+    ReplySender sender = senderOf();
     const auto sink = [&](std::string_view bytes) {
-      record.delivered =
-          record.delivered && sendAll(connection_.socket.get(), bytes, context_.limits.pace, &context_.cutReplies);
-      record.replyBytes += record.delivered ? bytes.size() : 0;
-      return record.delivered;
+      const bool isSent = sender.send(bytes) == Delivery::whole;
+      record.replyBytes += isSent ? bytes.size() : 0;
+      return isSent;
     };
     const bool begun = sink(replyHead(reply, record.id, false));
     record.replyBytes = 0; // counts the body alone
@@ -224,13 +243,15 @@ class Connection {
       reply.problem = reply.streamed->problem;
       reply.refusal = reply.streamed->refusal;
     }
-    context_.ended(record, reply);
+    sent(sender.delivery(), record, reply);
     return false;
   }
 
   OpenConnection connection_;
   ConnectionContext& context_;
   SocketReader reader_;
+  Holder holder_;                      ///< of the request that is being answered
+  bool isCut_ = false;                 ///< its reply was not sent whole
   std::shared_ptr<ClientWatch> watch_; ///< of the request that is being answered
 };
 

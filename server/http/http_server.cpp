@@ -20,6 +20,9 @@ constexpr int kBacklog = 512;             ///< connections that the kernel holds
 constexpr int kPauseMilliseconds = 50;    ///< before accepting again
 constexpr int kGoneMilliseconds = 20'000; ///< a client that acknowledges nothing for so long is cut off
 
+/// What the kernel takes of a reply beyond what is on its way: without it megabytes, which no budget would count.
+constexpr int kUnsentBytes = 128 * 1024;
+
 void set(int fd, int level, int option, int value) {
   ::setsockopt(fd, level, option, &value, sizeof value); // what a socket of another family does not know, it lacks
 }
@@ -31,6 +34,7 @@ void setUpConnection(int fd) {
   set(fd, IPPROTO_TCP, TCP_KEEPIDLE, 10);
   set(fd, IPPROTO_TCP, TCP_KEEPINTVL, 5);
   set(fd, IPPROTO_TCP, TCP_USER_TIMEOUT, kGoneMilliseconds);
+  set(fd, IPPROTO_TCP, TCP_NOTSENT_LOWAT, kUnsentBytes);
 }
 
 PeerAddress peerOf(const sockaddr_storage& address) {

@@ -224,8 +224,10 @@ void PendingConnections::sendLast(PendingConnection& pending, RequestRecord& rec
   record.proxy = record.client == connection.peer.text ? "" : connection.peer.text;
   addTrace(reply, record.trace);
   const std::string text = replyHead(reply, record.id, false) + std::string(bodyless ? "" : reply.body.view());
-  record.delivered = sendNow(connection.socket.get(), text); // it fits the socket's buffer, or the client reads nothing
-  record.replyBytes = record.delivered && !bodyless ? reply.body.size() : 0;
+  const bool isSent =
+      sendNow(connection.socket.get(), text); // it fits the socket's buffer, or the client reads nothing
+  record.delivery = isSent ? Delivery::whole : Delivery::clientLeft;
+  record.replyBytes = isSent && !bodyless ? reply.body.size() : 0;
   ::shutdown(connection.socket.get(), SHUT_WR);
   context_.ended(record, reply);
   connection.ending = true;

@@ -10,6 +10,7 @@
 #include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
 #include "server/http/url.h"
+#include "server/system/byte_budget.h"
 #include "server/system/client_identity.h"
 #include "server/system/clock.h"
 
@@ -81,6 +82,11 @@ struct HttpRequest {
   std::string key;                          ///< the name of its key; empty = the server has none
   Clock::time_point arrived = Clock::now(); ///< its first byte
 };
+
+/// For whom the request holds bytes.
+inline Holder holderOf(const HttpRequest& request) {
+  return {request.client, request.id};
+}
 
 /// The request that a head describes, without its body.
 Result<HttpRequest> requestFromHead(const RequestHead& head);

@@ -11,6 +11,11 @@ Problem bodyTooLarge(std::size_t limit, std::string actual) {
           std::move(actual)};
 }
 
+Problem largerThanAllBodies(std::size_t allBodies, std::string actual) {
+  return {ProblemCode::tooLarge, "", "The body is larger than all bodies together may be (--upload-memory-bytes).",
+          std::to_string(allBodies) + " bytes", std::move(actual)};
+}
+
 Problem brokenChunks(std::string detail) {
   return {ProblemCode::malformed, "", std::move(detail), "", ""};
 }
@@ -35,7 +40,7 @@ std::optional<std::size_t> chunkSize(std::string_view line) {
 class BodyReader {
  public:
   BodyReader(SocketReader& reader, const BodyRule& rule, const Pace& pace, ByteLease& lease, const StopSignal* cut)
-      : reader_(reader), rule_(rule), meter_(pace, Clock::now()), lease_(lease), cut_(cut) {}
+      : reader_(reader), rule_(rule), pace_(pace, &lease.budget(), lease.holder()), lease_(lease), cut_(cut) {}
 
   /// Appends `count` bytes to the body; false = refused.
   bool append(std::size_t count) {
@@ -91,6 +96,10 @@ class BodyReader {
         refused = bodyTooLarge(rule_.maxBytes, "");
         return false;
       }
+      if (const std::size_t all = lease_.budget().total(); size > all - std::min(all, body.size())) {
+        refused = largerThanAllBodies(all, "");
+        return false;
+      }
       if (!append(size) || !line(text)) return false;
       if (!text.empty()) {
         refused = brokenChunks("Chunk data exceeds the declared size.");
@@ -114,11 +123,18 @@ class BodyReader {
   }
 
   bool more(std::size_t most) {
-    const std::size_t before = reader_.buffered().size();
-    const SocketWait waited = reader_.receive(most, meter_.deadline(Clock::now()), cut_);
-    meter_.moved(reader_.buffered().size() - before, Clock::now());
-    if (waited == SocketWait::timedOut) {
+    auto waited = SocketWait::timedOut;
+    auto state = TransferState::goesOn;
+    while (waited == SocketWait::timedOut && (state = pace_.state(Clock::now())) == TransferState::goesOn) {
+      const std::size_t before = reader_.buffered().size();
+      waited = reader_.receive(most, pace_.wait(Clock::now()), cut_);
+      pace_.moved(reader_.buffered().size() - before, Clock::now());
+    }
+    if (state == TransferState::tooSlow) {
       refused = {ProblemCode::deadlineExceeded, "", "The body arrived too slowly.", "", ""};
+    } else if (state == TransferState::othersWaited) {
+      refused = {ProblemCode::deadlineExceeded, "",
+                 "The body arrived too slowly while other clients waited for the memory that it took.", "", ""};
     } else if (waited == SocketWait::closed) {
       refused = {ProblemCode::malformed, "", "The connection ended before the body did.", "", ""};
     } else if (waited == SocketWait::cutOff) {
@@ -129,14 +145,14 @@ class BodyReader {
 
   SocketReader& reader_;
   const BodyRule& rule_;
-  PaceMeter meter_;
+  TransferPace pace_;
   ByteLease& lease_;
   const StopSignal* cut_;
 };
 
 } // namespace
 
-std::optional<Problem> refuseBody(const RequestHead& head, const BodyRule& rule) {
+std::optional<Problem> refuseBody(const RequestHead& head, const BodyRule& rule, std::size_t allBodies) {
   if (rule.framing == BodyRule::Framing::none) {
     if (head.hasBody()) return Problem{ProblemCode::tooLarge, "", "This route accepts no body.", "0 bytes", ""};
     return std::nullopt;
@@ -147,6 +163,9 @@ std::optional<Problem> refuseBody(const RequestHead& head, const BodyRule& rule)
   }
   if (head.contentLength.value_or(0) > rule.maxBytes) {
     return bodyTooLarge(rule.maxBytes, std::to_string(*head.contentLength) + " bytes");
+  }
+  if (head.contentLength.value_or(0) > allBodies) {
+    return largerThanAllBodies(allBodies, std::to_string(*head.contentLength) + " bytes");
   }
   return std::nullopt;
 }

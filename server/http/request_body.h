@@ -4,6 +4,7 @@
 
 #include "server/http/request.h"
 #include "server/http/socket_io.h"
+#include "server/http/transfer_pace.h"
 #include "server/system/byte_budget.h"
 
 namespace gnomon {
@@ -20,12 +21,12 @@ struct BodyRule {
 };
 
 /// Why the body that the head announces can't be accepted, before a byte of it is read or asked for: lengthRequired or
-/// tooLarge. Nothing = it can.
-std::optional<Problem> refuseBody(const RequestHead& head, const BodyRule& rule);
+/// tooLarge. `allBodies`: bytes that there are for bodies. Nothing = it can.
+std::optional<Problem> refuseBody(const RequestHead& head, const BodyRule& rule, std::size_t allBodies);
 
 /// Reads the body that the head announces; never holds more than the rule allows. Problems: malformed (also where the
-/// client hangs up), tooLarge, deadlineExceeded, busy where the lease can't grow, and unavailable where `cut` is raised
-/// before the body is there.
+/// client hangs up), tooLarge, deadlineExceeded, busy where the lease can't grow now, and unavailable where `cut` is
+/// raised before the body is there.
 Result<Bytes> readBody(SocketReader& reader, const RequestHead& head, const BodyRule& rule, const Pace& pace,
                        ByteLease& lease, const StopSignal* cut = nullptr);
 

@@ -39,11 +39,6 @@ class LineText {
     text_ += std::to_string(value);
   }
 
-  void addTrue(std::string_view name) {
-    begin(name);
-    text_ += "true";
-  }
-
   void add(std::string_view name, const LineText& members) {
     begin(name);
     text_ += members.text_ + '}';
@@ -65,6 +60,22 @@ class LineText {
 
   std::string text_ = "{";
 };
+
+std::string_view nameOf(Delivery delivery) {
+  switch (delivery) {
+    case Delivery::whole:
+      return "";
+    case Delivery::clientLeft:
+      return "clientLeft";
+    case Delivery::tooSlow:
+      return "tooSlow";
+    case Delivery::othersWaited:
+      return "othersWaited";
+    case Delivery::shutdown:
+      return "shutdown";
+  }
+  return "";
+}
 
 /// Without escapes, also those of escapes; broken ones stay.
 std::string unescaped(std::string_view text) {
@@ -160,7 +171,7 @@ std::string requestLine(const RequestRecord& record, const HttpReply& reply, dou
     for (const StageTime& stage : reply.stages) stages.add(stage.stage, stage.milliseconds);
     line.add("stages", stages);
   }
-  if (!record.delivered) line.addTrue("clientGone");
+  if (record.delivery != Delivery::whole) line.add("undelivered", nameOf(record.delivery));
   addIfAny("problem", reply.problem);
   addIfAny("note", reply.note);
   return std::move(line).done();

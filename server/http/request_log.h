@@ -3,6 +3,7 @@
 #include <string>
 
 #include "server/http/reply.h"
+#include "server/http/reply_sender.h"
 #include "server/http/request.h"
 #include "server/system/clock.h"
 
@@ -19,7 +20,7 @@ struct RequestRecord {
   std::string route{}; ///< RequestHandler::route; empty = none was found
   std::size_t requestBytes = 0;
   std::size_t replyBytes = 0; ///< of its body, as far as it was sent
-  bool delivered = true;      ///< false = the client was gone before the whole reply was sent
+  Delivery delivery = Delivery::whole;
   Clock::time_point start = Clock::now();
 
   void note(HeadExcerpt excerpt) {

@@ -10,19 +10,23 @@
 namespace gnomon {
 namespace {
 
+constexpr int kRoundTripMilliseconds = 10; ///< a reset that takes longer is found by the next call
+
+} // namespace
+
 bool mayComeLater(int error) {
   return error == EAGAIN || error == EWOULDBLOCK || error == EINTR;
 }
 
-constexpr int kRoundTripMilliseconds = 10; ///< a reset that takes longer is found by the next call
-
-/// Bytes of earlier replies that have not arrived yet: behind them an interim reply could be sent in part only.
-bool isSending(int fd) {
-  int unsent = 0;
-  return ::ioctl(fd, SIOCOUTQ, &unsent) != 0 || unsent > 0;
+void resetWhenClosed(int fd) {
+  const linger none{.l_onoff = 1, .l_linger = 0};
+  ::setsockopt(fd, SOL_SOCKET, SO_LINGER, &none, sizeof none);
 }
 
-} // namespace
+std::size_t unacknowledged(int fd) {
+  int bytes = 0;
+  return ::ioctl(fd, SIOCOUTQ, &bytes) == 0 ? static_cast<std::size_t>(bytes) : 0;
+}
 
 SocketWait SocketReader::receive(std::size_t most, Clock::time_point deadline, const StopSignal* cut) {
   while (true) {
@@ -61,26 +65,6 @@ std::string SocketReader::take() {
   return rest;
 }
 
-bool sendAll(int fd, std::string_view bytes, const Pace& pace, const StopSignal* cut, bool more) {
-  const int flags = MSG_NOSIGNAL | MSG_DONTWAIT | (more ? MSG_MORE : 0);
-  PaceMeter meter(pace, Clock::now());
-  while (!bytes.empty()) {
-    const ssize_t count = ::send(fd, bytes.data(), bytes.size(), flags);
-    if (count > 0) {
-      bytes.remove_prefix(static_cast<std::size_t>(count));
-      meter.moved(static_cast<std::size_t>(count), Clock::now());
-      continue;
-    }
-    if (count < 0 && !mayComeLater(errno)) return false;
-    const auto deadline = meter.deadline(Clock::now());
-    std::array<pollfd, 2> waiting{{{fd, POLLOUT, 0}, {cut ? cut->fd() : -1, POLLIN, 0}}};
-    if (::poll(waiting.data(), waiting.size(), millisecondsUntil(deadline)) == 0 || waiting[1].revents != 0) {
-      return false;
-    }
-  }
-  return true;
-}
-
 bool sendNow(int fd, std::string_view bytes) {
   return ::send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT) == static_cast<ssize_t>(bytes.size());
 }
@@ -99,7 +83,7 @@ bool ClientWatch::left() {
   if (!left_ && (waiting.revents & POLLRDHUP) != 0) {
     if (streaming_) {
       left_ = true;
-    } else if (mayAsk_ && !isSending(fd_)) {
+    } else if (mayAsk_ && unacknowledged(fd_) == 0) { // behind earlier bytes it could be sent in part only
       mayAsk_ = false;
       left_ = !sendNow(fd_, "HTTP/1.1 100 Continue\r\n\r\n") || isReset(kRoundTripMilliseconds);
     }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <mutex>
 #include <string>
@@ -12,38 +10,6 @@
 #include "server/system/file_descriptor.h"
 
 namespace gnomon {
-
-/// How slowly a client may send a body or take a reply.
-struct Pace {
-  std::chrono::milliseconds stall{5'000};   ///< the longest wait for the next byte
-  std::chrono::milliseconds window{10'000}; ///< what is measured: bytes that passed earlier earn no time
-  std::size_t bytesPerSecond = 16 * 1024;   ///< the least over each window
-};
-
-/// Holds one transfer to a pace. Its time is cut into windows.
-class PaceMeter {
- public:
-  PaceMeter(const Pace& pace, Clock::time_point start) : pace_(pace), windowStart_(start) {}
-
-  void moved(std::size_t bytes, Clock::time_point now) {
-    if (now >= windowStart_ + pace_.window) {
-      windowStart_ = now;
-      inWindow_ = 0;
-    }
-    inWindow_ += bytes;
-  }
-
-  /// When the transfer is too slow unless further bytes move.
-  Clock::time_point deadline(Clock::time_point now) const {
-    const bool enough = inWindow_ * 1000 >= pace_.bytesPerSecond * static_cast<std::size_t>(pace_.window.count());
-    return enough ? now + pace_.stall : std::min(now + pace_.stall, windowStart_ + pace_.window);
-  }
-
- private:
-  const Pace pace_;
-  Clock::time_point windowStart_;
-  std::size_t inWindow_ = 0;
-};
 
 enum class SocketWait { ready, closed, timedOut, cutOff };
 
@@ -68,9 +34,15 @@ class SocketReader {
   std::size_t begin_ = 0; ///< bytes before it are consumed
 };
 
-/// Sends everything. False: the client was gone or slower than the pace, or would have to be waited for when `cut` is
-/// raised. `more`: other bytes follow at once, and may leave with these.
-bool sendAll(int fd, std::string_view bytes, const Pace& pace, const StopSignal* cut = nullptr, bool more = false);
+/// Bytes that were sent and that the other end's machine has not acknowledged. Of a Unix socket: about as many as the
+/// other end has not read.
+std::size_t unacknowledged(int fd);
+
+/// Closing the connection then drops what was not acknowledged, and the other end learns of it by a reset.
+void resetWhenClosed(int fd);
+
+/// Whether a call that failed with this error may do better later.
+bool mayComeLater(int error);
 
 /// Sends what fits into the socket's buffer at once. False: not everything did, or the client was gone.
 bool sendNow(int fd, std::string_view bytes);

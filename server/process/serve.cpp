@@ -217,7 +217,7 @@ int serve(const ServeOptions& options, std::vector<StaticFile> page) {
   std::signal(SIGPIPE, SIG_IGN); // a log without a reader must not end the server
 
   Limits limits;
-  limits.maxSceneBytes = options.maxSceneBytes;
+  limits.maxSceneBytes = std::min(options.maxSceneBytes, options.uploadMemoryBytes);
   const auto store = openStore(options, descriptors->scenesInMemory);
   if (!store) return failed(store.problems());
   metrics::RequestMetrics counted;

@@ -122,7 +122,7 @@ inline constexpr std::array kLimitRows{
            "Uploaded scenes kept without `--store`, or beside one in Redis, the least recently used dropped first"),
     option("max-scene-bytes", &ServeOptions::maxSceneBytes, kSize, "The largest scene that may be uploaded; 413 above"),
     option("upload-memory-bytes", &ServeOptions::uploadMemoryBytes, kSize,
-           "Bodies of all requests in progress together; 429 beyond it"),
+           "Bodies of all requests in progress together; 429 beyond it, 413 for a larger one"),
     option("frame-memory-bytes", &ServeOptions::frameMemoryBytes, kSize,
            "What drawing and encoding take of all frames in progress together: samples, layers, tiles, volumes, "
            "pictures, files; a frame waits for room, 413 above a worker's share"),

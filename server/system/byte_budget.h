@@ -1,93 +1,121 @@
 #pragma once
 
-#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <utility>
+#include <string>
+#include <vector>
 
+#include "server/system/client_identity.h"
 #include "server/system/clock.h"
 
 namespace gnomon {
 
+/// For whom bytes are held. A client without a name has no share and waits for none: what a worker holds.
+struct Holder {
+  ClientIdentity client{};
+  std::string request{}; ///< its id
+
+  bool operator==(const Holder&) const = default;
+};
+
+class ByteLease;
+
 /// Bytes that all requests together may hold. Any thread.
+///
+/// One request of a client may hold whatever is free. All requests of a client together, and those of a site, hold at
+/// most three quarters of what others leave. A client that found no room counts as waiting until it has found some, at
+/// most as long as it was asked to stay away. While it waits, transfers of the site that holds most have to keep a pace
+/// that follows from what they hold.
 class ByteBudget {
  public:
   explicit ByteBudget(std::size_t bytes) : total_(bytes), left_(bytes) {}
+  ByteBudget(const ByteBudget&) = delete;
+  ByteBudget& operator=(const ByteBudget&) = delete;
 
   std::size_t total() const { return total_; }
+  std::size_t used() const;
 
-  std::size_t used() const {
-    const std::lock_guard lock(mutex_);
-    return total_ - left_;
-  }
+  /// Whether a further lease of so many bytes would have room now.
+  bool hasRoom(const Holder& holder, std::size_t bytes) const;
 
-  bool take(std::size_t bytes) { return takeBy(bytes, Clock::time_point::min()); }
+  /// How long a client that found no room stays away: until the oldest transfer should be done, 1 to 10 s.
+  int retryAfterSeconds(Clock::time_point now = Clock::now()) const;
 
-  /// Waits until there are so many; false where the deadline comes first.
-  bool takeBy(std::size_t bytes, Clock::time_point deadline) {
-    std::unique_lock lock(mutex_);
-    const auto enough = [&] { return left_ >= bytes; };
-    if (!enough() && (Clock::now() >= deadline || !freed_.wait_until(lock, deadline, enough))) return false;
-    left_ -= bytes;
-    return true;
-  }
+  /// The bytes that a transfer has to move a second so that it is done within kTransferTime, where another client waits
+  /// and no site holds more than the holder's. 0 = it need not hurry.
+  std::size_t hurry(const Holder& holder, Clock::time_point now = Clock::now()) const;
 
-  void giveBack(std::size_t bytes) {
-    {
-      const std::lock_guard lock(mutex_);
-      left_ += bytes;
-    }
-    freed_.notify_all();
-  }
+  /// Whether a transfer that did not hurry is to be ended now: one a second, the first that asks.
+  bool mayEndOne(Clock::time_point now = Clock::now());
+
+  /// What a transfer may take in all while others wait.
+  static constexpr std::chrono::seconds kTransferTime{60};
 
  private:
+  friend class ByteLease;
+
+  /// A client that found no room for so many bytes.
+  struct Waiting {
+    ClientIdentity client;
+    std::size_t bytes = 0;
+    Clock::time_point until{};
+  };
+
+  bool takeBy(ByteLease& lease, std::size_t bytes, Clock::time_point deadline);
+  void giveBack(ByteLease& lease, std::size_t bytes);
+
+  // With the mutex held:
+  bool isFree(const ClientIdentity& client, const ByteLease* own, std::size_t bytes) const;
+  std::size_t heldBeside(const ByteLease* own, const ClientIdentity& client, std::string ClientIdentity::*of) const;
+  void noteWaiting(const ByteLease& lease, std::size_t bytes, Clock::time_point now);
+  std::chrono::seconds timeToStayAway(Clock::time_point now) const;
+
   const std::size_t total_;
   mutable std::mutex mutex_;
   std::condition_variable freed_;
   std::size_t left_;
+  std::vector<const ByteLease*> leases_; ///< that hold something
+  std::vector<Waiting> waiting_;         ///< one for each client
+  Clock::time_point nextEnd_{};
 };
 
 /// What one request holds of a budget; given back when it goes.
 class ByteLease {
  public:
-  explicit ByteLease(ByteBudget& budget) : budget_(&budget) {}
+  /// `expected`: what the request will need in all, where that is known.
+  explicit ByteLease(ByteBudget& budget, Holder holder = {}, std::size_t expected = 0)
+      : budget_(&budget), holder_(std::move(holder)), expected_(expected) {}
   ByteLease(const ByteLease&) = delete;
   ByteLease& operator=(const ByteLease&) = delete;
-  ~ByteLease() { budget_->giveBack(held_); }
+  ~ByteLease() { budget_->giveBack(*this, held_); }
 
   bool grow(std::size_t bytes) { return growBy(bytes, Clock::time_point::min()); }
 
   /// Waits for them until the deadline.
-  bool growBy(std::size_t bytes, Clock::time_point deadline) {
-    if (!budget_->takeBy(bytes, deadline)) return false;
-    held_ += bytes;
-    return true;
-  }
+  bool growBy(std::size_t bytes, Clock::time_point deadline) { return budget_->takeBy(*this, bytes, deadline); }
 
   /// The same for as long as they are wanted, which is asked ten times a second.
-  bool growBy(std::size_t bytes, Clock::time_point deadline, const std::function<bool()>& unwanted) {
-    constexpr std::chrono::milliseconds kPiece{100};
-    while (!growBy(bytes, std::min(deadline, Clock::now() + kPiece))) {
-      if (Clock::now() >= deadline || unwanted()) return false;
-    }
-    return true;
-  }
+  bool growBy(std::size_t bytes, Clock::time_point deadline, const std::function<bool()>& unwanted);
 
   /// REQUIRES: bytes <= held().
-  void shrinkTo(std::size_t bytes) {
-    budget_->giveBack(held_ - bytes);
-    held_ = bytes;
-  }
+  void shrinkTo(std::size_t bytes) { budget_->giveBack(*this, held_ - bytes); }
 
   std::size_t held() const { return held_; }
+  ByteBudget& budget() const { return *budget_; }
+  const Holder& holder() const { return holder_; }
 
  private:
+  friend class ByteBudget;
+
   ByteBudget* budget_;
-  std::size_t held_ = 0;
+  const Holder holder_;
+  const std::size_t expected_;
+  std::size_t held_ = 0;      ///< changed with the budget's mutex held
+  Clock::time_point since_{}; ///< when it began to hold something
 };
 
 /// Replies up to this size need no room: problems and probes.
@@ -108,15 +136,8 @@ class ReplyRoom {
   /// Waits for room for a reply of so many bytes, and holds nothing while it waits; nothing is waited for where it
   /// holds as much already. One reply alone may be larger than the budget. False where the deadline comes first, or
   /// `unwanted` says so, which is asked ten times a second: then it holds nothing.
-  bool await(ByteBudget& budget, std::size_t bytes, Clock::time_point deadline, const std::function<bool()>& unwanted) {
-    const std::size_t needed = bytes > kSmallReply ? std::min(bytes, budget.total()) : 0;
-    if (needed <= held()) return true;
-    lease_.reset();
-    auto lease = std::make_unique<ByteLease>(budget);
-    if (!lease->growBy(needed, deadline, unwanted)) return false;
-    lease_ = std::move(lease);
-    return true;
-  }
+  bool await(ByteBudget& budget, const Holder& holder, std::size_t bytes, Clock::time_point deadline,
+             const std::function<bool()>& unwanted);
 
   std::size_t held() const { return lease_ ? lease_->held() : 0; }
 

@@ -73,7 +73,7 @@ TEST(ReplyRoom, IsTakenBeforeAnythingIsRead) {
   ASSERT_TRUE(others.grow(1));
   TaskResult result = resultOf(unread(kTooMuchToRead));
   const auto begun = Clock::now();
-  takeRoom(result, budget, begun + 20ms, kWanted);
+  takeRoom(result, budget, {}, begun + 20ms, kWanted);
   EXPECT_GE(Clock::now() - begun, 20ms) << "it waits for others to be taken";
   EXPECT_FALSE(result.body) << "its memory is given back";
   EXPECT_EQ(result.refusal, TaskRefusal::memory);
@@ -87,7 +87,7 @@ TEST(ReplyRoom, IsHeldUntilTheReplyGoes) {
   ByteBudget budget(3 << 20);
   const Bytes picture(1 << 20, 'x');
   TaskResult result = resultOf(picture);
-  takeRoom(result, budget, Clock::now(), kWanted);
+  takeRoom(result, budget, {}, Clock::now(), kWanted);
   EXPECT_EQ(budget.used(), picture.size());
   {
     const HttpReply reply = replyOf(std::move(result), "id");
@@ -105,14 +105,14 @@ TEST(ReplyRoom, IsNotNeededByWhatIsSmall) {
   ByteLease others(budget);
   ASSERT_TRUE(others.grow(budget.total()));
   TaskResult result = resultOf(Bytes(1000, 'x'));
-  takeRoom(result, budget, Clock::now(), kWanted);
+  takeRoom(result, budget, {}, Clock::now(), kWanted);
   EXPECT_EQ(replyOf(std::move(result), "id").status, 200);
 }
 
 TEST(ReplyRoom, OneReplyMayBeLargerThanAllOfIt) {
   ByteBudget budget(1 << 17);
   TaskResult result = resultOf(Bytes(1 << 20, 'x'));
-  takeRoom(result, budget, Clock::now(), kWanted);
+  takeRoom(result, budget, {}, Clock::now(), kWanted);
   EXPECT_EQ(result.room.held(), budget.total());
 }
 
@@ -121,7 +121,7 @@ TEST(ReplyRoom, IsNotWaitedForOnceNobodyWantsIt) {
   ByteLease others(budget);
   ASSERT_TRUE(others.grow(budget.total()));
   TaskResult result = resultOf(unread(1 << 20));
-  takeRoom(result, budget, Clock::now() + 1h, [] { return true; });
+  takeRoom(result, budget, {}, Clock::now() + 1h, [] { return true; });
   EXPECT_FALSE(result.body);
 }
 

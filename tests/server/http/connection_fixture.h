@@ -10,6 +10,7 @@
 #include "server/http/connection.h"
 #include "server/http/pending_connections.h"
 #include "server/http/reply.h"
+#include "server/http/reply_sender.h"
 #include "server/http/socket_io.h"
 
 namespace gnomon {
@@ -71,7 +72,7 @@ class ConnectionTest : public ::testing::Test {
   /// The server's side of the pair goes to PendingConnections with two threads.
   std::unique_ptr<PendingConnections> enter() {
     auto pending = std::make_unique<PendingConnections>(context_, 2, 2);
-    pending->adopt({std::move(server_), {"client", "client"}});
+    pending->adopt({std::move(server_), {"client", {"client", "client"}}});
     return pending;
   }
 
@@ -81,7 +82,7 @@ class ConnectionTest : public ::testing::Test {
     for (int i = 0; i < count; ++i) {
       SocketPair pair;
       clients.push_back(std::move(pair.client));
-      pending.adopt({std::move(pair.server), {client, client}});
+      pending.adopt({std::move(pair.server), {client, {client, client}}});
     }
     return clients;
   }

@@ -72,7 +72,7 @@ class FullServerTest : public ConnectionTest {
 
   /// What a client gets; `network`: "holder" has its share of the threads already.
   std::string ask(const std::string& sent, const std::string& network) {
-    pending_->adopt({std::move(server_), {network, network}});
+    pending_->adopt({std::move(server_), {network, {network, network}}});
     EXPECT_TRUE(sendAll(client_.get(), sent, Pace{}));
     ::shutdown(client_.get(), SHUT_WR);
     return readAll();
@@ -101,7 +101,7 @@ TEST_F(FullServerTest, WhoAsksMostIsRefusedWhereAllAsk) {
   for (int i = 0; i < 40; ++i) {
     SocketPair pair;
     ASSERT_TRUE(sendAll(pair.client.get(), "GET /a HTTP/1.1\r\nHost: x\r\n\r\n", Pace{}));
-    pending_->admit({std::move(pair.server), {"holder", "holder"}});
+    pending_->admit({std::move(pair.server), {"holder", {"holder", "holder"}}});
     many.push_back(std::move(pair.client));
   }
   EXPECT_TRUE(ask("GET /a HTTP/1.1\r\nHost: x\r\n\r\n", "other").starts_with("HTTP/1.1 200 OK"));

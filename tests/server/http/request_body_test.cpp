@@ -91,7 +91,7 @@ TEST(RequestBody, RefusesALengthThatLied) {
 
 TEST(RequestBody, RefusesTheSlow) {
   Pace pace;
-  pace.stall = std::chrono::milliseconds(20);
+  pace.first = std::chrono::milliseconds(20);
   EXPECT_EQ(statusOf(received("slow", lengthHead(10), {Framing::any, 100}, true, pace)), 408);
 }
 
@@ -117,7 +117,7 @@ TEST(RequestBody, ABurstEarnsNoTimeForDripping) {
 
 TEST(RequestBody, RefusesByTheHeadAlone) {
   const auto status = [](const RequestHead& head, BodyRule rule) {
-    const auto refusal = refuseBody(head, rule);
+    const auto refusal = refuseBody(head, rule, 1000);
     return refusal ? statusOf(refusal->code, RequestPart::body) : 200;
   };
   EXPECT_EQ(status(lengthHead(11), {Framing::any, 10}), 413);
@@ -129,10 +129,25 @@ TEST(RequestBody, RefusesByTheHeadAlone) {
   EXPECT_EQ(status(chunkedHead(), {Framing::none, 0}), 413);
   EXPECT_EQ(status(lengthHead(1), {Framing::none, 0}), 413);
   EXPECT_EQ(status(lengthHead(0), {Framing::none, 0}), 200);
+  EXPECT_EQ(status(lengthHead(1000), {Framing::any, 2000}), 200);
+  EXPECT_EQ(status(lengthHead(1001), {Framing::any, 2000}), 413) << "larger than all bodies may be";
+}
+
+TEST(RequestBody, ChunksThatCanNeverFitAreTooLargeAndNotEarly) {
+  SocketPair pair;
+  ASSERT_TRUE(sendAll(pair.client.get(), "5\r\nhello\r\n6\r\n", Pace{}));
+  SocketReader reader(pair.server.get());
+  ByteBudget budget(10);
+  ByteLease lease(budget);
+  const ReadBody outcome = readBody(reader, chunkedHead(), {Framing::any, 100}, {}, lease);
+  EXPECT_EQ(statusOf(outcome), 413);
+  EXPECT_EQ(outcome.problems().front().limit, "10 bytes");
 }
 
 TEST(RequestBody, SharesABudgetAndGivesItBack) {
-  ByteBudget budget(10);
+  ByteBudget budget(16);
+  ByteLease others(budget);
+  ASSERT_TRUE(others.grow(6));
   {
     SocketPair pair;
     ASSERT_TRUE(sendAll(pair.client.get(), "0123456789ab", Pace{}));
@@ -140,7 +155,7 @@ TEST(RequestBody, SharesABudgetAndGivesItBack) {
     ByteLease lease(budget);
     EXPECT_EQ(statusOf(readBody(reader, lengthHead(12), {Framing::any, 100}, {}, lease)), 429);
   }
-  EXPECT_TRUE(budget.take(10));
+  EXPECT_EQ(budget.used(), others.held());
 }
 
 TEST(RequestBody, AnyChunkingGivesTheSameBody) {

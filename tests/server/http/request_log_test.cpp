@@ -54,6 +54,19 @@ TEST(RequestLog, KeepsTheClientsSentenceApartFromTheCause) {
   EXPECT_EQ(nlohmann::json::parse(requestLine({}, reply, 1))["note"], "bad_alloc");
 }
 
+TEST(RequestLog, SaysWhyAReplyWasNotSentWhole) {
+  const auto told = [](Delivery delivery) {
+    RequestRecord record;
+    record.delivery = delivery;
+    return nlohmann::json::parse(requestLine(record, {}, 1)).value("undelivered", "nothing");
+  };
+  EXPECT_EQ(told(Delivery::whole), "nothing");
+  EXPECT_EQ(told(Delivery::clientLeft), "clientLeft");
+  EXPECT_EQ(told(Delivery::tooSlow), "tooSlow");
+  EXPECT_EQ(told(Delivery::othersWaited), "othersWaited");
+  EXPECT_EQ(told(Delivery::shutdown), "shutdown");
+}
+
 const std::string kTrace = "0af7651916cd43dd8448eb211c80319c";
 const std::string kParent = "b7ad6b7169203331";
 
