@@ -159,10 +159,17 @@ HttpReply getJobFrame(Services& services, RouteCall call) {
   if (condition != Precondition::holds) {
     reply.status = 304;
   } else {
+    ReplyRoom room;
+    if (!room.await(services.replyBytes, holderOf(call.request), bytesOf(pictures).value_or(0), Clock::now() + services.replyRoom,
+                    call.clientGone)) {
+      const int comeAgain = services.replyBytes.retryAfterSeconds();
+      return problemReply({noReplyRoom()}, call.request.id, {RequestPart::whole, comeAgain, RefusalReason::memory});
+    }
     auto frame = services.jobs.frame(job->id, *index);
     if (!frame) return jobProblem(frame.problems(), call);
     if (!*frame) return problemReply({notDrawn}, call.request.id);
     reply = frameReply({.index = *index, .pictures = std::move((*frame)->pictures)}, call);
+    reply.room = std::move(room);
   }
   reply.headers.emplace_back("ETag", etag);
   reply.headers.emplace_back("Cache-Control", "private, no-cache");

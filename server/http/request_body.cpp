@@ -6,14 +6,12 @@
 namespace gnomon {
 namespace {
 
-Problem bodyTooLarge(std::size_t limit, std::string actual) {
-  return {ProblemCode::tooLarge, "", "The body is larger than this route accepts.", std::to_string(limit) + " bytes",
+Problem bodyTooLarge(std::size_t ofRoute, std::size_t allBodies, std::string actual) {
+  const char* const detail = ofRoute <= allBodies
+                                 ? "The body is larger than this route accepts."
+                                 : "The body is larger than all bodies together may be (--upload-memory-bytes).";
+  return {ProblemCode::tooLarge, "", detail, std::to_string(std::min(ofRoute, allBodies)) + " bytes",
           std::move(actual)};
-}
-
-Problem largerThanAllBodies(std::size_t allBodies, std::string actual) {
-  return {ProblemCode::tooLarge, "", "The body is larger than all bodies together may be (--upload-memory-bytes).",
-          std::to_string(allBodies) + " bytes", std::move(actual)};
 }
 
 Problem brokenChunks(std::string detail) {
@@ -92,12 +90,9 @@ class BodyReader {
       }
       const std::size_t size = *announced;
       if (size == 0) return trailers();
-      if (size > rule_.maxBytes - body.size()) {
-        refused = bodyTooLarge(rule_.maxBytes, "");
-        return false;
-      }
-      if (const std::size_t all = lease_.budget().total(); size > all - std::min(all, body.size())) {
-        refused = largerThanAllBodies(all, "");
+      const std::size_t allBodies = lease_.budget().total();
+      if (size > std::min(rule_.maxBytes, allBodies) - body.size()) {
+        refused = bodyTooLarge(rule_.maxBytes, allBodies, "");
         return false;
       }
       if (!append(size) || !line(text)) return false;
@@ -161,13 +156,8 @@ std::optional<Problem> refuseBody(const RequestHead& head, const BodyRule& rule,
   if (isOptional ? head.chunked : !head.chunked && !head.contentLength) {
     return Problem{ProblemCode::lengthRequired, "", "This route needs a body with a Content-Length.", "", ""};
   }
-  if (head.contentLength.value_or(0) > rule.maxBytes) {
-    return bodyTooLarge(rule.maxBytes, std::to_string(*head.contentLength) + " bytes");
-  }
-  if (head.contentLength.value_or(0) > allBodies) {
-    return largerThanAllBodies(allBodies, std::to_string(*head.contentLength) + " bytes");
-  }
-  return std::nullopt;
+  if (head.contentLength.value_or(0) <= std::min(rule.maxBytes, allBodies)) return std::nullopt;
+  return bodyTooLarge(rule.maxBytes, allBodies, std::to_string(*head.contentLength) + " bytes");
 }
 
 Result<Bytes> readBody(SocketReader& reader, const RequestHead& head, const BodyRule& rule, const Pace& pace,

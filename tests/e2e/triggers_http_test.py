@@ -193,7 +193,7 @@ class LeavingClients(ServerTest):
             time.sleep(0.3)  # it is being drawn
         line = self.server.request_line("left")
         self.assertEqual(line["status"], 499, line)
-        self.assertTrue(line["clientGone"])
+        self.assertEqual(line["undelivered"], "clientLeft")
 
 
 class Slowloris(ServerTest):
