@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <span>
 
 #include "renderer/core/parallel.h"
 #include "renderer/core/stop.h"
@@ -51,16 +54,56 @@ struct Positions {
   std::size_t first = 0;
 };
 
-void addTriangles(const Tree& tree, RTCScene scene, const Primitive& primitive, const Positions& positions,
+/// A triangle that is nowhere larger than this, in the tree's units, is a point to rays. Embree's builder for many
+/// triangles asserts that what it takes apart has an extent, and divides by it, in floats without denormal numbers.
+constexpr float kLeastExtent = 0x1p-100f;
+
+bool isPoint(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  const glm::vec3 extent = glm::max(glm::max(a, b), c) - glm::min(glm::min(a, b), c);
+  return !(std::max({extent.x, extent.y, extent.z}) > kLeastExtent);
+}
+
+/// The indices of a primitive as Embree takes them: the scene's own, or a copy in which the triangles that are points
+/// name vertices that there are not, so that Embree leaves them out. None where all are points.
+std::span<const std::uint32_t> tracedIndices(Tree& tree, const Primitive& primitive, const Positions& positions) {
+  constexpr std::size_t kPiece = 1 << 12;
+  constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
+  const auto indices =
+      std::span<const std::uint32_t>(tree.scene->indices).subspan(primitive.firstIndex, primitive.indexCount);
+  const std::size_t triangles = indices.size() / 3;
+  const glm::vec3* places = positions.all.data() + positions.first;
+  const auto isPointAt = [&](std::size_t i) {
+    const std::uint32_t* corner = &indices[3 * i];
+    return isPoint(places[corner[0]], places[corner[1]], places[corner[2]]);
+  };
+  std::atomic<std::size_t> points = 0;
+  forEachPiece(triangles, kPiece, [&](std::size_t first, std::size_t last) {
+    std::size_t here = 0;
+    for (std::size_t i = first; i < last; ++i) here += isPointAt(i) ? 1 : 0;
+    points += here;
+  });
+  if (points == triangles) return {};
+  if (points == 0) return indices;
+  std::vector<std::uint32_t>& copy = tree.indices.emplace_back(indices.begin(), indices.end());
+  for (std::size_t i = 0; i < triangles; ++i) {
+    if (isPointAt(i)) std::fill_n(&copy[3 * i], 3, kNoVertex);
+  }
+  return copy;
+}
+
+/// False, and nothing is added, where all of the primitive's triangles are points.
+bool addTriangles(Tree& tree, RTCScene scene, const Primitive& primitive, const Positions& positions,
                   std::uint32_t number) {
+  const std::span<const std::uint32_t> indices = tracedIndices(tree, primitive, positions);
+  if (indices.empty()) return false;
   const Geometry geometry(rtcNewGeometry(tree.device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
   rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions.all.data(),
                              positions.first * sizeof(glm::vec3), sizeof(glm::vec3), primitive.vertexCount);
-  rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, tree.scene->indices.data(),
-                             primitive.firstIndex * sizeof(std::uint32_t), 3 * sizeof(std::uint32_t),
-                             primitive.indexCount / 3);
+  rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices.data(), 0,
+                             3 * sizeof(std::uint32_t), indices.size() / 3);
   rtcCommitGeometry(geometry.get());
   rtcAttachGeometryByID(scene, geometry.get(), number);
+  return true;
 }
 
 bool isWorthSharing(const Primitive& primitive, std::size_t uses) {
@@ -105,7 +148,7 @@ std::vector<int> sharedPrimitives(const Tree& tree) {
   return shared;
 }
 
-/// The trees of `shared` primitives, by their index.
+/// The trees of `shared` primitives, by their index; none where all triangles are points.
 std::map<int, RayScene> sortShared(Tree& tree, const std::vector<int>& shared) {
   std::map<int, std::size_t> first; // of each primitive among the tree's shared positions
   for (const int index : shared) {
@@ -119,7 +162,8 @@ std::map<int, RayScene> sortShared(Tree& tree, const std::vector<int>& shared) {
   std::map<int, RayScene> trees;
   for (const auto& [index, start] : first) {
     RayScene scene = emptyScene(tree, RTC_BUILD_QUALITY_MEDIUM);
-    addTriangles(tree, scene.get(), tree.scene->primitives[static_cast<std::size_t>(index)], {tree.shared, start}, 0);
+    const Primitive& primitive = tree.scene->primitives[static_cast<std::size_t>(index)];
+    if (!addTriangles(tree, scene.get(), primitive, {tree.shared, start}, 0)) continue;
     build(scene.get());
     trees.emplace(index, std::move(scene));
   }
@@ -150,9 +194,10 @@ void sortAll(Tree& tree) {
   for (std::uint32_t i = 0; i < shared.size(); ++i) {
     const Primitive& primitive = tree.primitive(i);
     if (primitive.indexCount == 0) continue;
-    if (shared[i] >= 0) {
-      addInstance(tree, trees.at(shared[i]).get(), i);
-    } else {
+    const auto own = trees.find(shared[i]);
+    if (own != trees.end()) {
+      addInstance(tree, own->second.get(), i);
+    } else if (shared[i] < 0) {
       addTriangles(tree, tree.rays.get(), primitive, {tree.positions, tree.firstPosition[i]}, i);
     }
   }

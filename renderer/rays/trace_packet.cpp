@@ -1,6 +1,7 @@
 #include "renderer/rays/trace_packet.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace gnomon {
@@ -73,6 +74,24 @@ void occludeParts(void (*trace)(const int*, RTCScene, RTCIntersectContext*, Rays
   });
 }
 
+/// Embree asserts that rays are finite and begin no farther off than this. One that begins beyond it would meet nothing
+/// that its direction, in floats, could tell from what lies beside it.
+constexpr float kFarthest = 1.8e18f;
+
+/// The active lanes whose rays may be traced. The others meet nothing.
+Lanes traceable(const Lanes& lanes, const RTCRay16& rays) {
+  Lanes sound;
+  for (unsigned i = 0; i < kLanes; ++i) {
+    bool isSound = rays.tfar[i] == rays.tfar[i];
+    for (const float part :
+         {rays.org_x[i], rays.org_y[i], rays.org_z[i], rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]}) {
+      isSound = isSound && std::abs(part) <= kFarthest;
+    }
+    sound.active[i] = isSound ? lanes.active[i] : 0;
+  }
+  return sound;
+}
+
 } // namespace
 
 unsigned widestPackets(RTCDevice device) {
@@ -80,8 +99,9 @@ unsigned widestPackets(RTCDevice device) {
   return rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0 ? 8 : 4;
 }
 
-void intersect(const TracedScene::Tree& tree, const Lanes& lanes, RTCIntersectContext& context, RTCRayHit16& packet) {
+void intersect(const TracedScene::Tree& tree, const Lanes& asked, RTCIntersectContext& context, RTCRayHit16& packet) {
   const RTCScene scene = tree.rays.get();
+  const Lanes lanes = traceable(asked, packet.ray);
   if (tree.packets == 16) {
     rtcIntersect16(lanes.active.data(), scene, &context, &packet);
   } else if (tree.packets == 8) {
@@ -91,8 +111,9 @@ void intersect(const TracedScene::Tree& tree, const Lanes& lanes, RTCIntersectCo
   }
 }
 
-void occlude(const TracedScene::Tree& tree, const Lanes& lanes, RTCIntersectContext& context, RTCRay16& rays) {
+void occlude(const TracedScene::Tree& tree, const Lanes& asked, RTCIntersectContext& context, RTCRay16& rays) {
   const RTCScene scene = tree.rays.get();
+  const Lanes lanes = traceable(asked, rays);
   if (tree.packets == 16) {
     rtcOccluded16(lanes.active.data(), scene, &context, &rays);
   } else if (tree.packets == 8) {

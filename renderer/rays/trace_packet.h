@@ -11,7 +11,8 @@ namespace gnomon {
 /// The packets of rays that a device traces lane by lane: 16, 8 or 4 wide.
 unsigned widestPackets(RTCDevice device);
 
-/// Of each active lane: what it first meets, into packet.hit and packet.ray.tfar.
+/// Of each active lane: what it first meets, into packet.hit and packet.ray.tfar. A ray that is not finite, or begins
+/// more than 1e18 units of the tree away, meets nothing.
 void intersect(const TracedScene::Tree& tree, const Lanes& lanes, RTCIntersectContext& context, RTCRayHit16& packet);
 
 /// Of each active lane: whether it meets anything; then its tfar is below zero.

@@ -140,7 +140,9 @@ const SceneView& TracedScene::view() const {
 std::size_t TracedScene::bytes() const {
   std::size_t masks = 0;
   for (const auto& mask : tree_->masks) masks += mask ? mask->bytes() : 0;
-  return masks + static_cast<std::size_t>(tree_->embreeBytes.load()) +
+  std::size_t indices = 0;
+  for (const auto& copy : tree_->indices) indices += copy.capacity() * sizeof(std::uint32_t);
+  return masks + indices + static_cast<std::size_t>(tree_->embreeBytes.load()) +
          (tree_->positions.capacity() + tree_->shared.capacity()) * sizeof(glm::vec3) +
          tree_->firstPosition.capacity() * sizeof(std::size_t) + tree_->firstIndex.capacity() * sizeof(std::size_t) +
          tree_->mirrored.capacity() + tree_->boxes.bytes() +

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <embree3/rtcore.h>
+#include <list>
 #include <memory>
 #include <type_traits>
 #include <vector>
@@ -41,8 +42,10 @@ struct TracedScene::Tree {
   std::vector<glm::vec3> positions;       ///< times `scale`; one more at the end: Embree reads 16 bytes at once
   std::vector<std::size_t> firstPosition; ///< of each instance
   std::vector<std::size_t> firstIndex;    ///< of each instance, into the scene's
-  std::vector<glm::vec3> shared;          ///< positions of primitives with a tree of their own, in their own space
-  std::vector<std::uint8_t> mirrored;     ///< one an instance: its triangles run the other way round
+  /// Indices of primitives that are points in part, without those triangles: they stay where they are in memory.
+  std::list<std::vector<std::uint32_t>> indices;
+  std::vector<glm::vec3> shared;      ///< positions of primitives with a tree of their own, in their own space
+  std::vector<std::uint8_t> mirrored; ///< one an instance: its triangles run the other way round
   /// By the image; none where no hole depends on it.
   std::vector<std::shared_ptr<const AlphaLevels>> masks;
   MaskCoverages coverages;
