@@ -14,6 +14,7 @@
 #include "renderer/scene/materials/materials.h"
 #include "renderer/scene/posing/deformation.h"
 #include "renderer/scene/posing/pose.h"
+#include "renderer/scene/reach.h"
 
 namespace gnomon {
 
@@ -104,8 +105,10 @@ std::optional<std::size_t> poseVertices(const Motion& motion, const std::vector<
   return std::nullopt;
 }
 
-/// Of what takes a node beyond what is finite: the nearest place above it, else any, else the animation.
-Problem lost(const Motion& motion, const PoseInput& input, std::size_t node) {
+/// Of what takes a node, or the mesh on it, beyond reach: the nearest place above it, else any, else the animation.
+Problem lost(const Scene& scene, const PoseInput& input, std::size_t node) {
+  const Motion& motion = *scene.motion;
+  const std::string title = nodeTitle(node, scene.nodes[node].name);
   const NodePlace* mover = input.places.empty() ? nullptr : &input.places.back();
   for (int up = static_cast<int>(node); up >= 0; up = motion.parents[static_cast<std::size_t>(up)]) {
     const auto place = std::ranges::lower_bound(input.places, static_cast<std::size_t>(up), {}, &NodePlace::node);
@@ -114,11 +117,11 @@ Problem lost(const Motion& motion, const PoseInput& input, std::size_t node) {
     break;
   }
   if (mover == nullptr) {
-    return {ProblemCode::invalidValue, "/animation", "The animation produces a non-finite value at this time.", "",
-            std::to_string(input.timeSeconds) + " seconds"};
+    return {ProblemCode::invalidValue, "/animation", "At this time the animation takes something too far.",
+            reachLimit(), title + " at " + std::to_string(input.timeSeconds) + " seconds"};
   }
-  return {ProblemCode::invalidValue, "/nodes/" + std::to_string(mover->entry),
-          "This place takes something beyond what is finite.", "", "node " + std::to_string(node)};
+  return {ProblemCode::invalidValue, "/nodes/" + std::to_string(mover->entry), "This place takes something too far.",
+          reachLimit(), title};
 }
 
 Problem disallowed(const std::string& pointer, double timeSeconds, const std::string& detail) {
@@ -155,7 +158,7 @@ Result<Properties> moveProperties(const Properties& rest, const Animation& anima
   return moved;
 }
 
-/// Nothing, or the node of an instance that is not finite. What has no area is left out.
+/// Nothing, or the node of an instance that is beyond reach. What has no area is left out.
 std::optional<std::size_t> placeInstances(const MovingView& moving, const PosedGraph& graph, const Scene& scene,
                                           SceneView& view) {
   view.instances.reserve(moving.placements.size());
@@ -173,7 +176,7 @@ std::optional<std::size_t> placeInstances(const MovingView& moving, const PosedG
     instance.copy = placement.copy;
     instance.worldFromLocal = worldFromLocal;
     instance.bounds = transformed(worldFromLocal, primitive.bounds);
-    if (!finite(instance.bounds)) return node;
+    if (!isWithinReach(instance.bounds)) return node;
     view.bounds.add(instance.bounds);
     view.triangles += primitive.indexCount / 3;
     view.instances.push_back(instance);
@@ -208,7 +211,7 @@ Result<std::shared_ptr<const Scene>> poseScene(const Scene& scene, const PoseInp
   const MovedNodes nodes = moveNodes(motion, input);
   PosedGraph graph;
   graph.places = placeNodes(motion.order, motion.parents, nodes.locals);
-  if (const auto node = firstLost(graph.places, motion.order)) return lost(motion, input, *node);
+  if (const auto node = firstLost(graph.places, motion.order)) return lost(scene, input, *node);
   graph.hidden = hiddenNodes(motion.order, motion.parents, nodes.visible);
   if (input.animation != nullptr && !input.animation->properties.empty()) {
     auto properties = moveProperties(*motion.properties, *input.animation, input.timeSeconds);
@@ -224,12 +227,12 @@ Result<std::shared_ptr<const Scene>> poseScene(const Scene& scene, const PoseInp
   }
   if (!scene.placedNodes.empty()) posed->placedNodes = placedNodes(graph.places, graph.hidden);
   graph.skins = poseSkins(scene, graph.places);
-  if (const auto node = poseVertices(motion, graph.skins, nodes.weights, *posed)) return lost(motion, input, *node);
+  if (const auto node = poseVertices(motion, graph.skins, nodes.weights, *posed)) return lost(scene, input, *node);
   posed->scenes.assign(motion.views.size(), {});
   for (std::size_t i = 0; i < motion.views.size(); ++i) {
     posed->scenes[i].roots = scene.scenes[i].roots;
     if (const auto node = placeInstances(motion.views[i], graph, *posed, posed->scenes[i])) {
-      return lost(motion, input, *node);
+      return lost(scene, input, *node);
     }
     placeCameras(motion.views[i], graph, posed->scenes[i]);
     placeLights(motion.views[i], graph, posed->scenes[i]);

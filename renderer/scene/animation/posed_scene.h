@@ -92,7 +92,7 @@ struct PoseInput {
 };
 
 /// The scene in a pose; shares images, and vertices where none is deformed. A problem at /nodes or /animation where
-/// something is not finite. REQUIRES: the scene has motion.
+/// something is taken beyond reach (reach.h). REQUIRES: the scene has motion.
 Result<std::shared_ptr<const Scene>> poseScene(const Scene& scene, const PoseInput& input);
 
 } // namespace gnomon

@@ -5,6 +5,7 @@
 
 #include "renderer/core/aabb.h"
 #include "renderer/core/linear_algebra.h"
+#include "renderer/scene/reach.h"
 
 namespace gnomon {
 
@@ -154,7 +155,7 @@ std::vector<PlacedNode> placedNodes(const NodePlaces& places, const std::vector<
 std::optional<std::size_t> firstLost(const NodePlaces& places, const std::vector<int>& order) {
   for (const int index : order) {
     const auto node = static_cast<std::size_t>(index);
-    if (!finite(places.worldFromNode[node]) || !finite(places.worldFromUnscaled[node])) return node;
+    if (!isWithinReach(places.worldFromNode[node]) || !isWithinReach(places.worldFromUnscaled[node])) return node;
   }
   return std::nullopt;
 }
@@ -182,7 +183,8 @@ NodeTree buildNodeTree(const gltf::Model& model, Findings& findings) {
   tree.hidden = hiddenNodes(tree.order, tree.parents, tree.visible);
   static_cast<NodePlaces&>(tree) = placeNodes(tree.order, tree.parents, tree.locals);
   if (const auto lost = firstLost(tree, tree.order)) {
-    findings.invalid(pointerTo("/nodes", *lost), "The node's world transform is not finite.");
+    findings.invalid(pointerTo("/nodes", *lost), "The node's world transform places it, or stretches it, too far.",
+                     reachLimit(), nodeTitle(*lost, model.nodes[*lost].name));
     return tree;
   }
   for (std::size_t node = 0; node < reached.size(); ++node) {

@@ -45,7 +45,7 @@ struct NodePlaces {
 NodePlaces placeNodes(const std::vector<int>& order, const std::vector<int>& parents,
                       const std::vector<LocalTransform>& locals);
 
-/// The first node in that order whose place is not finite.
+/// The first node in that order whose place is not within reach.
 std::optional<std::size_t> firstLost(const NodePlaces& places, const std::vector<int>& order);
 
 /// Which nodes are hidden with what is above them. `visible`: each by itself.
@@ -65,7 +65,7 @@ struct NodeTree : NodePlaces {
 };
 
 /// The tree and its matrices. Problems, after which the result is unusable: nodes that form no tree, matrices that are
-/// not affine, rotations of length 0.
+/// not affine, rotations of length 0, places beyond reach.
 NodeTree buildNodeTree(const gltf::Model& model, Findings& findings);
 
 /// The axes of a node, orthonormal whatever scales it; false where the matrix leaves none.

@@ -5,6 +5,7 @@
 #include "renderer/core/aabb.h"
 #include "renderer/core/linear_algebra.h"
 #include "renderer/scene/graph/attachments.h"
+#include "renderer/scene/reach.h"
 
 namespace gnomon {
 
@@ -139,8 +140,9 @@ class Flattening {
       instance.copy = copy;
       instance.worldFromLocal = worldFromLocal;
       instance.bounds = transformed(worldFromLocal, primitive.bounds);
-      if (!finite(instance.bounds)) {
-        findings_.invalid(pointerTo("/nodes", node), "The mesh's bounds in world space are not finite.");
+      if (!isWithinReach(instance.bounds)) {
+        findings_.invalid(pointerTo("/nodes", node), "The box around the node's mesh, in world space, reaches too far.",
+                          reachLimit(), nodeTitle(node, load_.document.model.nodes[node].name));
         return;
       }
       view.bounds.add(instance.bounds);

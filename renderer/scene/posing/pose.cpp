@@ -14,6 +14,7 @@
 #include "renderer/scene/geometry/mesh_build.h"
 #include "renderer/scene/geometry/mesh_source.h"
 #include "renderer/scene/geometry/welding.h"
+#include "renderer/scene/reach.h"
 
 namespace gnomon {
 
@@ -150,7 +151,8 @@ class Posing {
       const PosedShape shape =
           pose(source, weights, skinned ? jointsOf(skin).localFromMesh : std::span<const glm::dmat4>());
       if (!finite(shape.bounds)) {
-        load_.findings.invalid(pointerTo("/nodes", node), "The posed mesh has positions that are not finite.");
+        load_.findings.invalid(pointerTo("/nodes", node), "The posed mesh has positions that are not finite.", {},
+                               nodeTitle(node, model_.nodes[node].name));
         return {};
       }
       const int primitive = appendPrimitive(source.mesh, source.material, scene_);

@@ -194,14 +194,31 @@ TEST(PosedScene, UnknownAnimationsAreToldWithThoseThereAre) {
   EXPECT_FALSE(posedScene(sharedScene(testing::cube()), {moment})) << "a scene without animations";
 }
 
-TEST(PosedScene, APlaceBeyondWhatIsFiniteIsAProblem) {
+TEST(PosedScene, APlaceBeyondReachIsAProblem) {
+  for (const float far : {3e9f, 3e38f}) {
+    testing::GlbBuilder builder = testing::cube();
+    builder.json["nodes"][0]["name"] = "far";
+    builder.json["scenes"][0]["nodes"] = {1};
+    builder.add("nodes", {{"children", {0}}});
+    animate(builder, 1, "scale", {0, 1}, {1, 1, 1, far, 1, 1}, "VEC3");
+    const auto scene = sharedScene(builder);
+    EXPECT_TRUE(posedScene(scene, {at(0)}));
+    const auto lost = posedScene(scene, {at(1)});
+    ASSERT_FALSE(lost);
+    EXPECT_EQ(lost.problems()[0].pointer, "/animation");
+    EXPECT_THAT(lost.problems()[0].actual, ::testing::HasSubstr("node 1"));
+  }
+}
+
+TEST(PosedScene, VerticesBeyondReachAreAProblem) {
   testing::GlbBuilder builder = testing::cube();
-  builder.json["nodes"][0]["scale"] = {1e300, 1, 1};
-  builder.json["scenes"][0]["nodes"] = {1};
-  builder.add("nodes", {{"children", {0}}});
-  animate(builder, 1, "scale", {0, 1}, {1, 1, 1, 3e38f, 1, 1}, "VEC3");
+  std::vector<testing::Point> moves(24, testing::Point{0, 0, 0});
+  moves[3] = {0, 3e9f, 0};
+  builder.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", builder.addPoints(moves)}}};
+  builder.json["meshes"][0]["weights"] = {0};
+  animate(builder, 0, "weights", {0, 1}, {0, 1}, "SCALAR");
   const auto scene = sharedScene(builder);
-  EXPECT_TRUE(posedScene(scene, {at(0)}));
+  EXPECT_TRUE(posedScene(scene, {at(0.25)}));
   const auto lost = posedScene(scene, {at(1)});
   ASSERT_FALSE(lost);
   EXPECT_EQ(lost.problems()[0].pointer, "/animation");

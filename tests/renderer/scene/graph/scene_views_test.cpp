@@ -52,12 +52,45 @@ TEST(SceneViews, RefusesBrokenTransforms) {
               ElementsAre(ProblemAt(ProblemCode::invalidScene, "/nodes/0/rotation")));
 }
 
-TEST(SceneViews, RefusesPlacesThatAreNotFinite) {
+/// The cube stands on node 0, "far", below node 1.
+Problems problemsOfPlace(const json& node, const json& parent = json::object()) {
   testing::GlbBuilder builder = testing::cube();
-  builder.json["nodes"][0]["scale"] = {1e300, 1e300, 1e300};
+  builder.json["nodes"][0].update(node);
+  builder.json["nodes"][0]["name"] = "far";
   builder.json["scenes"][0]["nodes"] = {1};
-  builder.add("nodes", {{"children", {0}}, {"scale", {1e300, 1e300, 1e300}}});
-  EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/nodes/0")));
+  json above = parent;
+  above["children"] = {0};
+  builder.add("nodes", above);
+  return problemsOf(builder);
+}
+
+TEST(SceneViews, RefusesPlacesBeyondReachWithTheirNode) {
+  const json beyond = {
+      {{"translation", {3e9, 0, 0}}}, {{"translation", {0, -1e30, 0}}},
+      {{"scale", {1e10, 1, 1}}},      {{"scale", {1e38, 1e38, 1e38}}},
+      {{"scale", {1e308, 1, 1}}},     {{"translation", {0, 0, 2e9}}} // its box reaches on
+  };
+  for (const json& node : beyond) {
+    const Problems problems = problemsOfPlace(node);
+    ASSERT_THAT(problems, ElementsAre(ProblemAt(ProblemCode::invalidScene, "/nodes/0"))) << node;
+    EXPECT_THAT(problems[0].actual, HasSubstr("\"far\""));
+    EXPECT_THAT(problems[0].limit, HasSubstr("2e+09 metres"));
+  }
+  const json large = {{"scale", {1e6, 1e6, 1e6}}};
+  EXPECT_THAT(problemsOfPlace(large), IsEmpty());
+  EXPECT_THAT(problemsOfPlace(large, large), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/nodes/0")));
+  EXPECT_THAT(problemsOfPlace({{"translation", {1.9e9, -1.9e9, 1.9e9}}}), IsEmpty());
+}
+
+TEST(SceneViews, RefusesVerticesBeyondReach) {
+  for (const float far : {2.1e9f, -1e19f, 3e38f}) {
+    testing::GlbBuilder builder = testing::cube();
+    std::memcpy(builder.binary.data(), &far, sizeof far); // of the first position
+    for (const char* bound : {"min", "max"}) builder.json["accessors"][0].erase(bound);
+    EXPECT_THAT(problemsOf(builder), ElementsAre(ProblemAt(ProblemCode::invalidScene, "/nodes/0"))) << far;
+    builder.json["nodes"][0]["scale"] = {1e-30, 1e-30, 1e-30};
+    EXPECT_THAT(problemsOf(builder), IsEmpty()) << "where it stands counts";
+  }
 }
 
 TEST(SceneViews, LeavesOutInstancesWithoutAnAreaWithAWarning) {
