@@ -210,9 +210,10 @@ def replies(folder):
 
 
 def choices(folder):
-    """Scenes and specs for both devices: any bytes are some."""
+    """Scenes and specs, for both devices and with extreme numbers: any bytes are some."""
     for number in range(24):
         write(folder / "devices", f"{number:03}", random.Random(number).randbytes(200 + 50 * number))
+        write(folder / "extremes", f"{number:03}", random.Random(number).randbytes(600 + 50 * number))
 
 
 def main(folder, scenes, assets=None):

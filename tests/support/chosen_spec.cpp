@@ -162,9 +162,8 @@ constexpr std::array kViews{"color",       "color",     "cascades", "shadow",   
                             "depth",       "normal",    "atlas",    "tile",      "bias",        "texelDensity",
                             "blendWeight", "casterIds", "error",    "reference", "edgeDistance"};
 
-/// A FrameSpec as JSON for a small picture of that scene, at most 64 x 48 pixels: any camera, up to three lights of any
-/// type and technique, every option of shadows and atlas, any one or two views. Nearly all can be drawn; some are bad
-/// requests.
+} // namespace
+
 json chosenSpec(Choices& choices, const ChosenScene& scene) {
   json spec = {{"width", choices.oneIn(4) ? 1 + choices.below(64) : 64},
                {"height", choices.oneIn(4) ? 1 + choices.below(48) : 48},
@@ -192,8 +191,6 @@ json chosenSpec(Choices& choices, const ChosenScene& scene) {
   if (choices.oneIn(4)) spec["toneMapping"] = "none";
   return spec;
 }
-
-} // namespace
 
 ChosenFrame chosenFrame(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kSpecBytes = 256;

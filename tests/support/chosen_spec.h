@@ -4,6 +4,11 @@
 
 namespace gnomon::testing {
 
+/// A FrameSpec as JSON for a small picture of that scene, at most 64 x 48 pixels: any camera, up to three lights of any
+/// type and technique, every option of shadows and atlas, any one or two views. Nearly all can be drawn; some are bad
+/// requests.
+nlohmann::json chosenSpec(Choices& choices, const ChosenScene& scene);
+
 struct ChosenFrame {
   Bytes glb;
   nlohmann::json spec;
