@@ -31,6 +31,7 @@ class Uncovered {
       }
       low = glm::max(low, glm::dvec2(-1.0));
       high = glm::min(high, glm::dvec2(1.0));
+      if (!(low.x <= high.x && low.y <= high.y)) return false; // beside the picture, however far
     }
     const auto place = [&](double ndc, int pixels) { return (ndc + 1.0) * 0.5 * pixels / seen_.blockSize; };
     const int lastColumn = std::min(static_cast<int>(place(high.x, seen_.width)), seen_.columns - 1);
