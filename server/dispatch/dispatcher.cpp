@@ -34,6 +34,12 @@ TaskResult failed(Problem problem, int retryAfterSeconds) {
   return result;
 }
 
+TaskResult struck(StrikeList::Refusal refusal) {
+  TaskResult result = failed(std::move(refusal.problem), refusal.retryAfterSeconds);
+  if (refusal.isOfClient) result.refusal = TaskRefusal::client;
+  return result;
+}
+
 Dispatcher::Dispatcher(DispatcherOptions options) : options_(std::move(options)) {
   FrameCost unit;
   unit.parts.fill(1);
@@ -101,6 +107,7 @@ TaskResult Dispatcher::run(Task task, const std::function<bool()>& gone, const T
   ticket->task = std::move(task);
 
   Lock lock(mutex_);
+  if (auto refusal = strikes_.refusalOf(ticket->task, Clock::now())) return struck(*std::move(refusal));
   waiting_.push_back(ticket);
   try {
     placeWaiting();

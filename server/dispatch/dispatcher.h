@@ -17,6 +17,7 @@
 #include "protocol/cost/cost_model.h"
 #include "protocol/cost/passed_deadlines.h"
 #include "server/dispatch/placement.h"
+#include "server/dispatch/strike_list.h"
 #include "server/dispatch/task.h"
 #include "server/dispatch/worker_process.h"
 #include "server/scenes/stored_light_maps.h"
@@ -68,7 +69,7 @@ struct DispatcherState {
 
 /// Workers, and the queue before them. A worker that ends, stops sending, does not stop, or takes too much memory is
 /// replaced; each task that it had is tried once more, with no other beside it, and if that ends its worker too, it is
-/// a problem. Any thread.
+/// a problem, and for a while no worker is given the same (StrikeList). Any thread.
 class Dispatcher {
  public:
   /// Returns once all workers are ready, or one of them can't start: with those that can, or why none can.
@@ -77,8 +78,8 @@ class Dispatcher {
 
   /// Waits for the task's result. Problems beside the worker's own: busy where too many tasks wait,
   /// deadlineExceeded, unavailable where `gone` became true or the server ends, internal where workers ended over it or
-  /// it could not be sent to one.
-  /// `gone` is asked some fifty times a second, on the calling thread, as are `events`.
+  /// it could not be sent to one. Where a task is tried again, its caller is sent no event twice: the first ones of
+  /// each name are passed over. `gone` is asked some fifty times a second, on the calling thread, as are `events`.
   TaskResult run(Task task, const std::function<bool()>& gone, const TaskEvents& events = {});
 
   /// How long a frame may take that finds nothing of earlier ones, as workers have learned.
@@ -138,6 +139,8 @@ class Dispatcher {
   void learnFrom(const Ticket& ticket, bool isLate);
   void callOff(const TicketPtr& ticket);
   int retryAfterSeconds() const;
+  void countEnds(const Slot& slot);
+  void refuseStruck();
 
   const DispatcherOptions options_;
   mutable std::mutex mutex_;
@@ -153,6 +156,7 @@ class Dispatcher {
   FrameCost costFactors_; ///< milliseconds for a unit of each part
   PassedDeadlines passedDeadlines_;
   std::optional<Problems> refusal_; ///< of a worker that could not start
+  StrikeList strikes_;
   Clock::time_point endAt_ = Clock::time_point::max();
   bool ending_ = false;
   std::thread watching_;

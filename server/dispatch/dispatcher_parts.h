@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <map>
+#include <string>
 
 #include "server/dispatch/dispatcher.h"
 #include "server/wire/answers.h"
@@ -11,6 +13,9 @@ namespace gnomon {
 
 /// The result of a task that no worker has done.
 TaskResult failed(Problem problem, int retryAfterSeconds = 1);
+
+/// The result of a task that no worker is given.
+TaskResult struck(StrikeList::Refusal refusal);
 
 /// A task, from its arrival to its result.
 struct Dispatcher::Ticket {
@@ -28,7 +33,11 @@ struct Dispatcher::Ticket {
   std::deque<OrderEvent> events;              ///< not delivered yet
   std::size_t eventBytes = 0;                 ///< of them
   Announced announced;                        ///< by its events
-  bool hasEvents = false;                     ///< some came, so that it can't be tried again
+  struct Heard {
+    std::size_t before = 0; ///< events that the caller was sent, from earlier workers
+    std::size_t now = 0;    ///< that came from the worker that has the task
+  };
+  std::map<std::string, Heard> heard; ///< by the event's name
   TaskResult result;
   std::condition_variable changed;
 
@@ -37,7 +46,19 @@ struct Dispatcher::Ticket {
 
   /// Not once two workers ended over it. It is hardly why a worker is killed from outside; but the system kills what
   /// takes too much memory, so that there is an end to that, too.
-  bool mayBeTriedAgain() const { return ends - kills < 2 && ends < 5 && !hasEvents; }
+  bool mayBeTriedAgain() const { return ends - kills < 2 && ends < 5; }
+
+  /// False for what an earlier worker has sent already. Frames of sequences are told from their start again.
+  bool isNews(const OrderEvent& event) {
+    if (task.order.kind == OrderKind::sequenceFrame) return true;
+    Heard& of = heard[event.name];
+    return ++of.now > of.before;
+  }
+
+  /// Its worker ended: the next one begins at the start.
+  void beginAgain() {
+    for (auto& [name, of] : heard) of = {std::max(of.before, of.now), 0};
+  }
 };
 
 /// One of the places for workers, and the one that is there.

@@ -47,8 +47,9 @@ struct Task {
 /// Why the dispatcher itself refused a task.
 enum class TaskRefusal {
   none,
-  queue, ///< too many wait
-  memory ///< there is too little for it
+  queue,  ///< too many wait
+  memory, ///< there is too little for it
+  client  ///< its client's tasks ended too many workers
 };
 
 /// What became of a task.

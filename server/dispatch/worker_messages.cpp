@@ -88,9 +88,9 @@ bool Dispatcher::takeEvent(Slot& slot, const OrderEvent& event, Lock& lock) {
   if (!isFitting(slot, lock, [&] { return mayTell(order, event, announced); })) return false;
   ticket->announced = announced;
   if (ticket->calledOff) return true; // no caller takes it
+  if (!ticket->isNews(event)) return true;
   ticket->eventBytes += event.data.size() + sizeof event;
   if (ticket->eventBytes > kMostUndelivered) return false;
-  ticket->hasEvents = order.kind != OrderKind::sequenceFrame; // which sends the same again
   ticket->events.push_back(event);
   ticket->changed.notify_one();
   return true;

@@ -24,12 +24,14 @@ Task taskOfFrame(Services& services, const FrameToDraw& call) {
   return task;
 }
 
-/// A full queue ends no sequence that has begun: its frame asks again until its deadline.
+/// A full queue ends no sequence that has begun, nor does what other requests of its client did to workers: its frame
+/// asks again until its deadline.
 TaskResult runPatiently(Services& services, const FrameToDraw& call, const Task& task, const TaskEvents& events) {
   constexpr std::chrono::milliseconds kPause{50};
   while (true) {
     TaskResult result = runTask(services, task, call.gone, events);
-    if (result.refusal != TaskRefusal::queue || !call.isPatient || call.gone() || Clock::now() >= task.deadline) {
+    const bool mayPass = result.refusal == TaskRefusal::queue || result.refusal == TaskRefusal::client;
+    if (!mayPass || !call.isPatient || call.gone() || Clock::now() >= task.deadline) {
       return result;
     }
     std::this_thread::sleep_for(kPause);

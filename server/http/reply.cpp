@@ -145,7 +145,7 @@ HttpReply problemReply(const Problems& reasons, std::string_view instance, const
   reply.contentType = "application/problem+json";
   reply.body = jsonText(problemJson(problems, reply.status, instance));
   reply.headers.emplace_back("Cache-Control", "no-store");
-  if (reply.status == 429 || reply.status == 503) {
+  if (reply.status == 429 || reply.status == 503 || options.retryAfterSeconds > 1) {
     reply.headers.emplace_back("Retry-After", std::to_string(options.retryAfterSeconds));
   }
   reply.problem = problems.front().detail;

@@ -112,7 +112,7 @@ int statusOf(ProblemCode code, RequestPart read = RequestPart::whole);
 
 struct ProblemReplyOptions {
   RequestPart read = RequestPart::whole;
-  int retryAfterSeconds = 1;                   ///< sent with status 429 and 503
+  int retryAfterSeconds = 1;                   ///< sent with status 429 and 503; more than 1 with any
   RefusalReason refusal = RefusalReason::none; ///< for metrics
 };
 

@@ -160,11 +160,21 @@ const std::map<std::string, Fault> kFaults{
      }},
 };
 
+/// Three events of an evaluation, and then the end.
+void abortAfterEvents(Channel& front, std::uint64_t number) {
+  for (int done = 0; done < 3; ++done) {
+    front.send(textOf(ToFront{.event = OrderEvent{number, "progress", std::to_string(done)}}));
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(100)); // until they are sent on
+  std::abort();
+}
+
 /// True where the order's text names a fault, which has happened then.
 bool happened(const Packet& packet, Channel& front) {
   const auto message = readToWorker(packet.text);
   if (!message || !message->order || packet.files.size() != 2) return false;
   const Bytes request = readFile(packet.files[1], kLimits.maxSpecBytes).value_or(Bytes());
+  if (asText(request).find("fault-events") != std::string_view::npos) abortAfterEvents(front, message->order->number);
   for (const auto& [name, fault] : kFaults) {
     if (asText(request).find(name) == std::string_view::npos) continue;
     fault(front, *message->order);

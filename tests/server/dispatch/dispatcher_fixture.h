@@ -42,6 +42,12 @@ class DispatcherTest : public ::testing::Test {
     return task;
   }
 
+  /// The task as another client's.
+  static Task of(const std::string& client, Task task) {
+    task.client = client;
+    return task;
+  }
+
   static std::string problemOf(const TaskResult& result) {
     return result.outcome.problems.empty() ? "" : std::string(problemName(result.outcome.problems[0].code));
   }

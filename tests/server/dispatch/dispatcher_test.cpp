@@ -56,7 +56,7 @@ TEST_F(DispatcherTest, WhatEndsItsWorkerTwiceIsAProblemAndHarmsNobodyElse) {
         while (!done) EXPECT_EQ(problemOf(dispatcher->run(frame(), kStays)), "");
       });
     }
-    EXPECT_EQ(problemOf(dispatcher->run(frame(fault), kStays)), "internal") << fault;
+    EXPECT_EQ(problemOf(dispatcher->run(of("hostile", frame(fault)), kStays)), "internal") << fault;
     done = true;
     for (std::thread& other : others) other.join();
   }
@@ -67,7 +67,7 @@ TEST_F(DispatcherTest, AKilledWorkersTasksAreTriedAgainButNotForEver) {
   const auto dispatcher = start(1);
   std::atomic<bool> done = false;
   std::thread asking([&] {
-    EXPECT_EQ(problemOf(dispatcher->run(frame("fault-loop"), kStays)), "internal");
+    EXPECT_EQ(problemOf(dispatcher->run(of("unlucky", frame("fault-loop")), kStays)), "internal");
     done = true;
   });
   std::set<pid_t> victims;
