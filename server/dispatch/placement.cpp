@@ -34,15 +34,15 @@ std::optional<std::size_t> placeFor(const Task& task, std::span<const WorkerView
     if (held + 1 >= workers.size()) return std::nullopt;
   }
   const auto order = preference(task, workers.size());
+  const auto idle = std::find_if(order.begin(), order.end(), [&](std::size_t worker) {
+    return mayTake(workers[worker], task) && workers[worker].all() == 0;
+  });
+  if (idle != order.end()) return *idle;
   const auto preferred =
       std::find_if(order.begin(), order.end(), [&](std::size_t worker) { return workers[worker].ready; });
   if (preferred == order.end()) return std::nullopt;
   const WorkerView& first = workers[*preferred];
   if (mayTake(first, task) && (first.holdingRenderer == 0 || workers.size() == 1)) return *preferred;
-  const auto idle = std::find_if(order.begin(), order.end(), [&](std::size_t worker) {
-    return mayTake(workers[worker], task) && workers[worker].all() == 0;
-  });
-  if (idle != order.end()) return *idle;
   const auto unheld = std::find_if(order.begin(), order.end(), [&](std::size_t worker) {
     return mayTake(workers[worker], task) && workers[worker].holdingRenderer == 0;
   });

@@ -26,8 +26,9 @@ struct WorkerView {
 
 /// The worker that a task goes to now; nothing = it waits. Tasks of a scene go to the worker that has the scene, by
 /// highest random weight (Thaler and Ravishankar, "Using name-based mappings to increase hit rates", 1998), so that few
-/// scenes move when a worker is gone; where that one is taken and another is idle, to the idle one. A task that holds
-/// the renderer leaves at least one of several workers to the others.
+/// scenes move when a worker is gone. Where that one has any task and another has none, to the other: loading the scene
+/// once more takes a known time, and the task before may take minutes. A task that holds the renderer leaves at least
+/// one of several workers to the others.
 std::optional<std::size_t> placeFor(const Task& task, std::span<const WorkerView> workers);
 
 /// The worker where a task is to run alone, and whether that is free for it; nothing while no worker is ready.

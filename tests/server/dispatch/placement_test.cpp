@@ -1,7 +1,9 @@
 #include "server/dispatch/placement.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <map>
+#include <random>
 
 namespace gnomon {
 namespace {
@@ -50,13 +52,60 @@ TEST(Placement, OnlyTheScenesOfAWorkerThatIsGoneMove) {
   }
 }
 
-TEST(Placement, WhoeverIsTakenGivesToAnIdleOneOrLetsWait) {
+TEST(Placement, AFrameGoesToAnIdleWorkerBeforeItWaitsBehindAnother) {
   auto workers = ready(2);
   const std::size_t own = *placeFor(task("a"), workers);
-  workers[own].running[0] = kPlaces[0];
+  workers[own].running[0] = 1; // which may be a large one
   EXPECT_EQ(placeFor(task("a"), workers), 1 - own);
   workers[1 - own].running[0] = 1;
+  EXPECT_EQ(placeFor(task("a"), workers), own) << "none is idle, and this one has the scene";
+  workers[own].running[0] = kPlaces[0];
   EXPECT_FALSE(placeFor(task("a"), workers)) << "the other one is not idle, and would have to load the scene";
+}
+
+/// Any load that workers may have.
+std::vector<WorkerView> randomLoad(std::mt19937& random) {
+  const auto upTo = [&](std::size_t most) { return std::uniform_int_distribution<std::size_t>(0, most)(random); };
+  auto workers = ready(1 + upTo(5));
+  for (WorkerView& worker : workers) {
+    worker.ready = upTo(7) > 0;
+    worker.reserved = upTo(7) == 0;
+    if (upTo(2) == 0) continue;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) worker.running[lane] = upTo(kPlaces[lane]);
+    worker.holdingRenderer = upTo(std::min<std::size_t>(worker.all(), 1));
+  }
+  return workers;
+}
+
+TEST(Placement, ATaskIsBehindAnotherOrWaitsOnlyWhereNoWorkerIsIdle) {
+  std::mt19937 random(41);
+  std::size_t toIdle = 0, behind = 0, waiting = 0;
+  for (int i = 0; i < 50'000; ++i) {
+    const auto workers = randomLoad(random);
+    Task asked = task(std::to_string(i), static_cast<Lane>(i % kLanes));
+    asked.holdsRenderer = i % 5 == 0;
+    const auto place = placeFor(asked, workers);
+    const bool anyIdle = std::any_of(workers.begin(), workers.end(), [](const WorkerView& worker) {
+      return worker.ready && !worker.reserved && worker.all() == 0;
+    });
+    const auto held = static_cast<std::size_t>(
+        std::count_if(workers.begin(), workers.end(), [](const auto& worker) { return worker.holdingRenderer > 0; }));
+    const bool mustWait = asked.holdsRenderer && workers.size() > 1 && held + 1 >= workers.size();
+    if (place) {
+      const WorkerView& own = workers[*place];
+      ASSERT_TRUE(own.ready && !own.reserved &&
+                  own.running[static_cast<std::size_t>(asked.lane)] < kPlaces[i % kLanes]);
+      ASSERT_FALSE(mustWait);
+      ASSERT_TRUE(own.all() == 0 || !anyIdle) << i;
+      ++(own.all() == 0 ? toIdle : behind);
+    } else {
+      ASSERT_TRUE(!anyIdle || mustWait) << i;
+      ++waiting;
+    }
+  }
+  EXPECT_GT(toIdle, 1'000u);
+  EXPECT_GT(behind, 1'000u);
+  EXPECT_GT(waiting, 1'000u);
 }
 
 TEST(Placement, LanesDoNotStandBeforeEachOther) {
