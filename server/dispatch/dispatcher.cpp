@@ -117,7 +117,11 @@ TaskResult Dispatcher::run(Task task, const std::function<bool()>& gone, const T
       refuse(ticket, failed({ProblemCode::internal, "", "The request could not be given to a worker.", "", ""}));
     }
   }
-  if (waiting_.size() > options_.queueLimit) refuseOne();
+  if (waiting_.size() > options_.queueLimit) {
+    refuseForQueue(newestOfBusiest());
+  } else if (ticket->state == Ticket::State::waiting && !mayWait(*ticket)) {
+    refuseForQueue(ticket);
+  }
   while (true) {
     const auto deadline = std::min(ticket->task.deadline, endAt_);
     ticket->changed.wait_until(lock, std::min(deadline, Clock::now() + kPause),
@@ -212,6 +216,7 @@ DispatcherState Dispatcher::state() const {
       ++state.runningByLane[static_cast<std::size_t>(ticket->task.lane)];
   }
   for (const TicketPtr& ticket : waiting_) ++state.waitingByLane[static_cast<std::size_t>(ticket->task.lane)];
+  if (state.ready == 0) state.noneReadyFor = Clock::now() - noneReadySince_;
   state.replacements = replacements_;
   state.reusedMeshes = reusedMeshes_;
   state.reusedImages = reusedImages_;

@@ -57,6 +57,7 @@ inline constexpr std::array<std::string_view, kWorkerEnds> kWorkerEndNames{"cras
 struct DispatcherState {
   std::size_t workers = 0;                               ///< that are to run
   std::size_t ready = 0;                                 ///< of these
+  Clock::duration noneReadyFor{};                        ///< how long there has been no ready one; 0 = there is one
   std::size_t waiting = 0;                               ///< tasks
   std::size_t running = 0;                               ///< tasks
   std::size_t limit = 0;                                 ///< tasks that may wait
@@ -133,7 +134,9 @@ class Dispatcher {
   void endWorker(Slot& slot, Fault fault);
   void placeWaiting();
   void refuse(const TicketPtr& ticket, TaskResult result);
-  void refuseOne();
+  bool mayWait(const Ticket& last) const;
+  TicketPtr newestOfBusiest() const;
+  void refuseForQueue(const TicketPtr& ticket);
   bool send(const TicketPtr& ticket, std::size_t worker);
   void finish(const TicketPtr& ticket, TaskResult result);
   void learnFrom(const Ticket& ticket, bool isLate);
@@ -151,7 +154,8 @@ class Dispatcher {
   std::array<std::uint64_t, kWorkerEnds> replacements_{};
   std::uint64_t reusedMeshes_ = 0;
   std::uint64_t reusedImages_ = 0;
-  double taskMs_ = 0; ///< moving average of what a task takes in a worker
+  Clock::time_point noneReadySince_; ///< where none is ready: when the last one went
+  double taskMs_ = 0;                ///< moving average of what a task takes in a worker
   RendererInfo info_;
   FrameCost costFactors_; ///< milliseconds for a unit of each part
   PassedDeadlines passedDeadlines_;

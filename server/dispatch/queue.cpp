@@ -5,10 +5,12 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <tuple>
 #include <utility>
 
 #include "protocol/base/elapsed.h"
 #include "server/dispatch/dispatcher_parts.h"
+#include "server/system/fair_shares.h"
 #include "server/system/log.h"
 
 namespace gnomon {
@@ -21,20 +23,28 @@ void Dispatcher::refuse(const TicketPtr& ticket, TaskResult result) {
   ticket->changed.notify_one();
 }
 
-/// Gives workers what they can take. Tasks that must be alone come first, then those of the client with the fewest
-/// tasks in progress, then the oldest.
+/// Gives workers what they can take. Tasks that must be alone come first, then those of the site with the fewest tasks
+/// in progress, in it those of the client with the fewest, then the oldest.
 void Dispatcher::placeWaiting() {
-  std::map<std::string, int> inProgress;
+  std::map<std::string, int> ofSite;
+  std::map<std::string, int> ofClient;
+  const auto begun = [&](const ClientIdentity& client) {
+    ++ofSite[client.site];
+    ++ofClient[client.name];
+  };
+  const auto inProgress = [&](const ClientIdentity& client) {
+    return std::pair(ofSite[client.site], ofClient[client.name]);
+  };
   std::vector<WorkerView> workers;
   for (const auto& slot : slots_) {
     workers.push_back(slot->view());
-    for (const auto& [number, ticket] : slot->running) ++inProgress[ticket->task.client];
+    for (const auto& [number, ticket] : slot->running) begun(ticket->task.client);
   }
   std::vector<TicketPtr> order(waiting_.begin(), waiting_.end());
   while (!order.empty()) {
     const auto next = std::min_element(order.begin(), order.end(), [&](const TicketPtr& a, const TicketPtr& b) {
       if (a->mustBeAlone() != b->mustBeAlone()) return a->mustBeAlone();
-      return inProgress[a->task.client] < inProgress[b->task.client];
+      return inProgress(a->task.client) < inProgress(b->task.client);
     });
     const TicketPtr ticket = *next;
     order.erase(next);
@@ -58,7 +68,7 @@ void Dispatcher::placeWaiting() {
       refuse(ticket, failed({ProblemCode::internal, "", "The request could not be sent to a worker.", "", ""}));
       continue;
     }
-    ++inProgress[ticket->task.client];
+    begun(ticket->task.client);
     ++workers[*place].running[static_cast<std::size_t>(ticket->task.lane)];
     workers[*place].holdingRenderer += ticket->task.holdsRenderer ? 1 : 0;
   }
@@ -92,20 +102,42 @@ bool Dispatcher::send(const TicketPtr& ticket, std::size_t worker) {
   return true;
 }
 
-/// The newest task of the client that has the most in the queue, so that a client that fills it takes no other's place.
-void Dispatcher::refuseOne() {
-  std::map<std::string, std::size_t> counts;
-  for (const TicketPtr& ticket : waiting_) ++counts[ticket->task.client];
-  const auto refused = std::max_element(waiting_.begin(), waiting_.end(), [&](const TicketPtr& a, const TicketPtr& b) {
-    if (a->mustBeAlone() != b->mustBeAlone()) return a->mustBeAlone(); // it was taken long ago
-    if (counts[a->task.client] != counts[b->task.client]) return counts[a->task.client] < counts[b->task.client];
-    return a->since < b->since;
-  });
-  const TicketPtr ticket = *refused;
-  waiting_.erase(refused);
-  TaskResult result = failed({ProblemCode::busy, "", "The queue before the workers is full.",
-                              std::to_string(options_.queueLimit) + " requests", ""},
-                             retryAfterSeconds());
+/// Whether the client of a task that came last has less than its share of the places without it.
+bool Dispatcher::mayWait(const Ticket& last) const {
+  SharedUse others{.capacity = options_.queueLimit, .taken = waiting_.size() - 1};
+  for (const TicketPtr& ticket : waiting_) {
+    if (ticket.get() == &last) continue;
+    others.byClient += ticket->task.client.name == last.task.client.name ? 1 : 0;
+    others.bySite += ticket->task.client.site == last.task.client.site ? 1 : 0;
+  }
+  return mayTakeOne(others);
+}
+
+/// Of a full queue, the newest task of the client that has the most there, so that a client that comes gets a place as
+/// long as another has several.
+Dispatcher::TicketPtr Dispatcher::newestOfBusiest() const {
+  std::map<std::string, std::size_t> ofSite;
+  std::map<std::string, std::size_t> ofClient;
+  for (const TicketPtr& ticket : waiting_) {
+    ++ofSite[ticket->task.client.site];
+    ++ofClient[ticket->task.client.name];
+  }
+  const auto key = [&](const TicketPtr& ticket) {
+    const ClientIdentity& client = ticket->task.client;
+    const bool mayGo = !ticket->mustBeAlone(); // else it was taken long ago
+    return std::tuple(mayGo, ofSite[client.site], ofClient[client.name], ticket->since);
+  };
+  return *std::max_element(waiting_.begin(), waiting_.end(),
+                           [&](const TicketPtr& a, const TicketPtr& b) { return key(a) < key(b); });
+}
+
+void Dispatcher::refuseForQueue(const TicketPtr& ticket) {
+  const bool isFull = waiting_.size() > options_.queueLimit;
+  TaskResult result = failed(
+      {ProblemCode::busy, "",
+       isFull ? "The queue before the workers is full." : "This client has its share of the queue before the workers.",
+       std::to_string(options_.queueLimit) + " requests", ""},
+      retryAfterSeconds());
   result.refusal = TaskRefusal::queue;
   refuse(ticket, std::move(result));
 }

@@ -10,6 +10,7 @@
 
 #include "protocol/cost/frame_cost.h"
 #include "server/system/byte_budget.h"
+#include "server/system/client_identity.h"
 #include "server/system/clock.h"
 #include "server/system/file_descriptor.h"
 #include "server/system/shared_bytes.h"
@@ -38,9 +39,9 @@ struct Task {
   Lane lane = Lane::interactive;
   bool holdsRenderer = false; ///< draws for so long that others of its worker would wait
   std::optional<FrameCost>
-      cost{};                ///< of a frame that has the whole time of a request: its end teaches what frames take
-  std::string client;         ///< its address: tasks of different clients take turns
-  Holder holder{};            ///< of the room for the result's body
+      cost{};              ///< of a frame that has the whole time of a request: its end teaches what frames take
+  ClientIdentity client{}; ///< tasks of different sites take turns, and in each of them those of its clients
+  Holder holder{};         ///< of the room for the result's body
   std::string affinityKey{}; ///< tasks whose scenes have much in common; they prefer one worker. Empty = the scene's id
 };
 

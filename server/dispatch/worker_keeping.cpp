@@ -110,7 +110,7 @@ void Dispatcher::replaceWorker(Slot& slot) {
     refusal_ = Problems{{ProblemCode::backend, "", "A worker ended before it could draw.", "", ending.how}};
     changed_.notify_all();
   }
-  slot.ready = false;
+  if (std::exchange(slot.ready, false)) noneReadySince_ = Clock::now();
   slot.process.reset();
   if (!isForeign) countEnds(slot);
   for (const auto& [number, ticket] : std::exchange(slot.running, {})) {

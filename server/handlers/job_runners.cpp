@@ -45,7 +45,45 @@ Result<std::shared_ptr<const Sequence>> JobSequences::of(const std::string& job)
   return sequence;
 }
 
-JobRunners::JobRunners(Services& services, std::size_t threads) : services_(services), sequences_(services.jobs) {
+HeldFrames::HeldFrames(JobQueue& jobs, std::chrono::milliseconds lease)
+    : jobs_(jobs), pause_(lease / 4), thread_([this] { renew(); }) {}
+
+HeldFrames::~HeldFrames() {
+  stop_.raise();
+  thread_.join();
+}
+
+void HeldFrames::renew() {
+  while (!stop_.waitFor(pause_)) {
+    std::list<std::shared_ptr<Held::Entry>> held;
+    {
+      const std::lock_guard lock(mutex_);
+      held = held_;
+    }
+    for (const auto& entry : held) {
+      try {
+        const auto renewal = jobs_.renew(entry->turn);
+        if (renewal) entry->isWanted = *renewal; // else the queue is away, and what is drawn is kept once it is back
+      } catch (const std::exception& error) {    // out of memory: the next time comes soon
+        logEvent("jobs", error.what());
+      }
+    }
+  }
+}
+
+HeldFrames::Held::Held(HeldFrames& frames, const FrameTurn& turn)
+    : frames_(frames), entry_(std::make_shared<Entry>(turn)) {
+  const std::lock_guard lock(frames_.mutex_);
+  frames_.held_.push_back(entry_);
+}
+
+HeldFrames::Held::~Held() {
+  const std::lock_guard lock(frames_.mutex_);
+  frames_.held_.remove(entry_);
+}
+
+JobRunners::JobRunners(Services& services, std::size_t threads)
+    : services_(services), sequences_(services.jobs), held_(services.jobs, services.jobLimits.lease) {
   for (std::size_t i = 0; i < threads; ++i) threads_.emplace_back([this] { takeFrames(); });
 }
 
@@ -92,6 +130,7 @@ void JobRunners::queueIsThere() {
 }
 
 void JobRunners::draw(const FrameTurn& turn) {
+  const HeldFrames::Held held(held_, turn);
   const auto sequence = sequences_.of(turn.job);
   if (!sequence) return giveBack(turn, false);
   if (*sequence == nullptr) return count(FrameEnd::unwanted);
@@ -106,17 +145,8 @@ void JobRunners::draw(const FrameTurn& turn) {
     if (isPassing) return giveBack(turn, true);
     return fail(turn, bundle.problems());
   }
-  bool isWanted = true;
-  auto renewed = Clock::now();
-  const auto gone = [&] {
-    if (Clock::now() - renewed > services_.jobLimits.lease / 4) {
-      const auto renewal = services_.jobs.renew(turn);
-      isWanted = !renewal || *renewal;
-      renewed = Clock::now();
-    }
-    return !isWanted || stop_.raised();
-  };
-  ByteLease room(services_.replyBytes, {{turn.client, turn.client}, turn.job});
+  const auto gone = [&] { return !held.isWanted() || stop_.raised(); };
+  ByteLease room(services_.replyBytes, {turn.client, turn.job});
   const auto takeRoom = [&](std::size_t bytes) {
     return room.growBy(std::min(bytes, services_.replyBytes.total()), Clock::time_point::max(), gone) || gone();
   };
@@ -136,7 +166,7 @@ void JobRunners::draw(const FrameTurn& turn) {
                                                   .isPatient = true,
                                                   .gone = gone,
                                                   .takeRoom = takeRoom});
-  if (!isWanted) return count(FrameEnd::unwanted);
+  if (!held.isWanted()) return count(FrameEnd::unwanted);
   if (frame.problems.empty()) {
     return keep(turn, {.note = {.contentKey = contentKey(turn, **sequence, services_.workers.info()),
                                 .carried = std::move(frame.own),

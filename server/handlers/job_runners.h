@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <list>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -33,6 +35,44 @@ class JobSequences {
   LruList<Entry> entries_;
 };
 
+/// The frames that a server has taken and not given back, renewed by a thread of their own whatever those that draw
+/// them wait for: a scene from the store, a worker, room for the pictures. So a short lease means that the server has
+/// died.
+class HeldFrames {
+ public:
+  HeldFrames(JobQueue& jobs, std::chrono::milliseconds lease);
+  ~HeldFrames(); ///< none is held any more
+
+  /// One of them, as long as this lives.
+  class Held {
+   public:
+    Held(HeldFrames& frames, const FrameTurn& turn);
+    ~Held();
+    Held(const Held&) = delete;
+    Held& operator=(const Held&) = delete;
+    bool isWanted() const { return entry_->isWanted; } ///< false = its job was removed or has failed
+
+   private:
+    friend class HeldFrames;
+    struct Entry {
+      FrameTurn turn;
+      std::atomic<bool> isWanted = true;
+    };
+    HeldFrames& frames_;
+    std::shared_ptr<Entry> entry_;
+  };
+
+ private:
+  void renew();
+
+  JobQueue& jobs_;
+  const std::chrono::milliseconds pause_;
+  StopSignal stop_;
+  std::mutex mutex_;
+  std::list<std::shared_ptr<Held::Entry>> held_;
+  std::thread thread_;
+};
+
 /// Threads that take frames of jobs and have workers draw them, until the server drains.
 class JobRunners {
  public:
@@ -53,6 +93,7 @@ class JobRunners {
 
   Services& services_;
   JobSequences sequences_;
+  HeldFrames held_;
   StopSignal stop_;
   std::mutex saying_;
   std::string said_; ///< why the queue can't be reached; empty = it can

@@ -85,7 +85,7 @@ std::optional<Problem> tooMuchWork(const Services& services, const AskedSequence
 HttpReply putJob(Services& services, const RouteCall& call, const AskedSequence& asked) {
   const NewJob job{.id = newJobId(),
                    .key = call.request.key,
-                   .client = call.request.client.name,
+                   .client = call.request.client,
                    .scene = call.values.at("id"),
                    .request = std::string(asText(call.request.body)),
                    .first = asked.sequence.first,

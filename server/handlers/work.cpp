@@ -51,7 +51,7 @@ Task taskFor(const RouteCall& call, OrderKind kind, std::string sceneId, StoredB
   task.order.isStored = bundle.isStored;
   task.bundle = std::move(bundle.file);
   task.request = std::move(request);
-  task.client = call.request.client.name;
+  task.client = call.request.client;
   task.holder = holderOf(call.request);
   task.order.traceId = call.request.trace.traceId;
   if (const auto seconds = preferredWait(call.request)) {

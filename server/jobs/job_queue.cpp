@@ -30,6 +30,13 @@ Problem tooManyJobs(std::size_t most) {
           std::to_string(most) + " jobs", ""};
 }
 
+Problem noShareOfJobs(std::size_t most) {
+  return {ProblemCode::busy, "",
+          "This client, or its network, has its share of the jobs that the server keeps for all; those that it removes "
+          "make room.",
+          std::to_string(most) + " jobs", ""};
+}
+
 Problem noRoomForJobs(std::uint64_t bytes) {
   return {ProblemCode::insufficientStorage, "", "There is no room for further jobs (--job-bytes).",
           std::to_string(bytes) + " bytes", ""};

@@ -12,6 +12,7 @@
 
 #include "protocol/job/job.h"
 #include "protocol/sequence/sequence.h"
+#include "server/system/client_identity.h"
 #include "server/wire/frame_pictures.h"
 
 /// Frames of sequences that wait to be drawn, and what was drawn.
@@ -19,25 +20,25 @@ namespace gnomon {
 
 /// How much jobs may keep, and for how long.
 struct JobLimits {
-  std::size_t jobs = 256;                  ///< of all clients, where each has a descriptor (insufficientStorage)
-  std::size_t jobsOfClient = 16;           ///< that are kept for one client, in any state (busy)
-  std::uint64_t bytes = 1ull << 30;        ///< of all jobs: requests and pictures (insufficientStorage)
-  std::chrono::seconds age{86'400};        ///< a job goes so long after its last frame
-  int deliveries = 5;                      ///< >= 1; a frame that was taken more often fails its job
-  std::chrono::milliseconds lease{15'000}; ///< a frame that was not renewed for so long is given to other takers
+  std::size_t jobs = 256;                 ///< of all clients, where each has a descriptor (insufficientStorage)
+  std::size_t jobsOfClient = 16;          ///< that are kept for one client, in any state (busy)
+  std::uint64_t bytes = 1ull << 30;       ///< of all jobs: requests and pictures (insufficientStorage)
+  std::chrono::seconds age{86'400};       ///< a job goes so long after its last frame
+  int deliveries = 5;                     ///< >= 1; a frame that was taken more often fails its job
+  std::chrono::milliseconds lease{2'000}; ///< a frame that was not renewed for so long is given to other takers
 };
 
 /// A job as it was asked for.
 struct NewJob {
   std::string id{};
-  std::string key{};      ///< name of the key that made it; empty = the server has no keys
-  std::string client{};   ///< takes turns with other clients
-  std::string scene{};    ///< its id
-  std::string request{};  ///< a SequenceRequest that passed its checks, as JSON
-  int first = 0;          ///< index of the first frame
-  int count = 1;          ///< > first; frames, those before `first` included
-  bool isChained = false; ///< a frame takes what the one before it left, and so waits for it
-  Carried carried{};      ///< for frame `first`
+  std::string key{};       ///< name of the key that made it; empty = the server has no keys
+  ClientIdentity client{}; ///< whose site takes turns with others
+  std::string scene{};     ///< its id
+  std::string request{};   ///< a SequenceRequest that passed its checks, as JSON
+  int first = 0;           ///< index of the first frame
+  int count = 1;           ///< > first; frames, those before `first` included
+  bool isChained = false;  ///< a frame takes what the one before it left, and so waits for it
+  Carried carried{};       ///< for frame `first`
 };
 
 /// What became of a job so far.
@@ -73,7 +74,7 @@ struct JobsSize {
 struct FrameTurn {
   std::string job{};
   int index = 0;
-  std::string client{};
+  ClientIdentity client{};
   std::string scene{};
   Carried before{};      ///< what the frame takes from the one before it
   int deliveries = 1;    ///< how often it was taken, this time included
@@ -103,10 +104,10 @@ class JobQueue {
   virtual ~JobQueue() = default;
 
   /// Keeps a job and queues its frames: all, or, where they are chained, the first. Problems: busy where the client has
-  /// as many as it may, insufficientStorage where there is no room.
+  /// as many as it may, or its share of all (fair_shares.h), insufficientStorage where there is no room.
   virtual Status put(const NewJob& job) = 0;
 
-  /// A frame whose turn it is: clients take turns, and so do the jobs of each. Waits for one as long as `patience`;
+  /// A frame whose turn it is: sites take turns, and so do the jobs of each. Waits for one as long as `patience`;
   /// nothing = none came.
   virtual Result<std::optional<FrameTurn>> take(std::chrono::milliseconds patience) = 0;
 
@@ -166,6 +167,7 @@ std::int64_t unixMilliseconds();
 JobProgress queuedProgress(const NewJob& job);
 
 Problem tooManyJobs(std::size_t most);            ///< busy: of one client
+Problem noShareOfJobs(std::size_t most);          ///< busy: of one client or site, of those that all have
 Problem noRoomForJobs(std::uint64_t bytes);       ///< insufficientStorage: for a new job
 Problem noRoomForFrame(std::uint64_t bytes);      ///< insufficientStorage: for the pictures of one in work
 Problem poisonProblem(int index, int deliveries); ///< internal: every server that took the frame died

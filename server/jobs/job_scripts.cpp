@@ -19,22 +19,26 @@ local function touch(id)
   call('ZADD', P .. 'changed', time, id)
   return time
 end
-local function leaveRing(id, client)
-  call('LREM', P .. 'ring:' .. client, 0, id)
-  if call('LLEN', P .. 'ring:' .. client) == 0 then call('LREM', P .. 'ring', 0, client) end
+local function leaveRing(id, site)
+  call('LREM', P .. 'ring:' .. site, 0, id)
+  if call('LLEN', P .. 'ring:' .. site) == 0 then call('LREM', P .. 'ring', 0, site) end
+end
+local function siteOf(id) -- jobs of earlier versions have none
+  return call('HGET', P .. 'job:' .. id, 'site') or call('HGET', P .. 'job:' .. id, 'client')
 end
 local function finishJob(id, state, problems)
   local time = touch(id)
   call('HSET', P .. 'job:' .. id, 'state', state, 'ended', time, 'problems', problems)
-  leaveRing(id, call('HGET', P .. 'job:' .. id, 'client'))
+  leaveRing(id, siteOf(id))
   call('UNLINK', P .. 'stream:' .. id)
 end
 local function removeJob(id)
-  local job = call('HMGET', P .. 'job:' .. id, 'client', 'key', 'first', 'count', 'bytes', 'requestBytes')
+  local job = call('HMGET', P .. 'job:' .. id, 'client', 'key', 'first', 'count', 'bytes', 'requestBytes', 'site')
   call('ZREM', P .. 'changed', id)
   if not job[1] then return 0 end
-  leaveRing(id, job[1])
+  leaveRing(id, job[7] or job[1])
   call('SREM', P .. 'client:' .. job[1], id)
+  call('SREM', P .. 'site:' .. (job[7] or job[1]), id)
   call('ZREM', P .. 'key:' .. job[2], id)
   call('DECRBY', P .. 'bytes', text(job[5] + job[6]))
   call('UNLINK', P .. 'job:' .. id, P .. 'stream:' .. id)
@@ -69,23 +73,27 @@ redis::Script script(const char* own) {
 } // namespace
 
 const redis::Script kPut = script(R"lua(
-local id, key, client, scene, request, first, count, chained, carried, ofClient, jobs, bytes, age = unpack(ARGV)
+local id, key, client, site, scene, request, first, count, chained, carried, ofClient, jobs, bytes, age = unpack(ARGV)
 removeOld(tonumber(age))
-if call('SCARD', P .. 'client:' .. client) >= tonumber(ofClient) then return 'client' end
-if call('ZCARD', P .. 'changed') >= tonumber(jobs) then return 'room' end
+local own, ofSite, taken = call('SCARD', P .. 'client:' .. client), call('SCARD', P .. 'site:' .. site), call('ZCARD', P .. 'changed')
+if own >= tonumber(ofClient) then return 'client' end
+if taken >= tonumber(jobs) then return 'room' end
 if tonumber(call('GET', P .. 'bytes') or 0) + #request > tonumber(bytes) then return 'room' end
+if own >= math.max(math.floor((jobs - taken + own) / 2), 1) then return 'share' end
+if ofSite >= math.max(math.floor((jobs - taken + ofSite) * 3 / 4), 1) then return 'share' end
 local time = touch(id)
-call('HSET', P .. 'job:' .. id, 'key', key, 'client', client, 'scene', scene, 'request', request, 'requestBytes', #request,
+call('HSET', P .. 'job:' .. id, 'key', key, 'client', client, 'site', site, 'scene', scene, 'request', request, 'requestBytes', #request,
      'first', first, 'count', count, 'chained', chained, 'carried', carried, 'state', 'queued', 'done', 0, 'bytes', 0,
      'problems', '{"problems":[]}', 'created', time, 'started', 0, 'ended', 0)
 call('INCRBY', P .. 'bytes', #request)
 call('SADD', P .. 'client:' .. client, id)
+call('SADD', P .. 'site:' .. site, id)
 call('ZADD', P .. 'key:' .. key, call('INCR', P .. 'count'), id)
 call('XGROUP', 'CREATE', P .. 'stream:' .. id, 'takers', '0', 'MKSTREAM')
 local last = chained == '1' and tonumber(first) or count - 1
 for index = tonumber(first), last do call('XADD', P .. 'stream:' .. id, '*', 'index', index, 'carried', carried) end
-if call('LLEN', P .. 'ring:' .. client) == 0 then call('RPUSH', P .. 'ring', client) end
-call('RPUSH', P .. 'ring:' .. client, id)
+if call('LLEN', P .. 'ring:' .. site) == 0 then call('RPUSH', P .. 'ring', site) end
+call('RPUSH', P .. 'ring:' .. site, id)
 return 'ok'
 )lua");
 
@@ -109,9 +117,9 @@ local function nextEntry(id)
   return read and read[1][2][1]
 end
 for _ = 1, call('LLEN', P .. 'ring') do
-  local client = call('LMOVE', P .. 'ring', P .. 'ring', 'LEFT', 'RIGHT')
-  for _ = 1, client and call('LLEN', P .. 'ring:' .. client) or 0 do
-    local id = call('LMOVE', P .. 'ring:' .. client, P .. 'ring:' .. client, 'LEFT', 'RIGHT')
+  local site = call('LMOVE', P .. 'ring', P .. 'ring', 'LEFT', 'RIGHT')
+  for _ = 1, site and call('LLEN', P .. 'ring:' .. site) or 0 do
+    local id = call('LMOVE', P .. 'ring:' .. site, P .. 'ring:' .. site, 'LEFT', 'RIGHT')
     local entry = nextEntry(id)
     if entry then
       local times = call('XPENDING', P .. 'stream:' .. id, 'takers', entry[1], entry[1], 1)[1][4]
@@ -121,7 +129,8 @@ for _ = 1, call('LLEN', P .. 'ring') do
         if call('HGET', P .. 'job:' .. id, 'state') == 'queued' then
           call('HSET', P .. 'job:' .. id, 'state', 'running', 'started', touch(id))
         end
-        return {id, entry[2][2], entry[2][4], client, call('HGET', P .. 'job:' .. id, 'scene'), times, entry[1]}
+        local job = call('HMGET', P .. 'job:' .. id, 'client', 'scene')
+        return {id, entry[2][2], entry[2][4], job[1], site, job[2], times, entry[1]}
       end
     end
   end
@@ -199,8 +208,8 @@ return removeJob(ARGV[1])
 const redis::Script kSize = script(R"lua(
 removeOld(tonumber(ARGV[1]))
 local left = 0
-for _, client in ipairs(call('LRANGE', P .. 'ring', 0, -1)) do
-  for _, id in ipairs(call('LRANGE', P .. 'ring:' .. client, 0, -1)) do
+for _, site in ipairs(call('LRANGE', P .. 'ring', 0, -1)) do
+  for _, id in ipairs(call('LRANGE', P .. 'ring:' .. site, 0, -1)) do
     local job = call('HMGET', P .. 'job:' .. id, 'first', 'count', 'done')
     if job[1] then left = left + job[2] - job[1] - job[3] end
   end

@@ -4,6 +4,7 @@
 
 #include "protocol/sequence/sequence.h"
 #include "server/jobs/job_queue.h"
+#include "server/system/fair_shares.h"
 
 namespace gnomon {
 namespace {
@@ -66,15 +67,15 @@ void LocalJobs::takeBackSilent() {
   }
 }
 
-/// The job of the client that has waited longest, and of its jobs the one that has.
+/// The job of the site that has waited longest, and of its jobs the one that has.
 LocalJobs::Entry* LocalJobs::nextInTurn() {
-  std::map<std::string_view, std::uint64_t> lastOfClient;
+  std::map<std::string_view, std::uint64_t> lastOfSite;
   for (const Entry& entry : entries_) {
-    std::uint64_t& last = lastOfClient[entry.job.client];
+    std::uint64_t& last = lastOfSite[entry.job.client.site];
     last = std::max(last, entry.turn);
   }
   Entry* next = nullptr;
-  const auto turnOf = [&](const Entry& entry) { return std::pair(lastOfClient[entry.job.client], entry.turn); };
+  const auto turnOf = [&](const Entry& entry) { return std::pair(lastOfSite[entry.job.client.site], entry.turn); };
   for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
     if (!entry->waiting.empty() && (next == nullptr || turnOf(*entry) < turnOf(*next))) next = &*entry;
   }
@@ -84,11 +85,14 @@ LocalJobs::Entry* LocalJobs::nextInTurn() {
 Status LocalJobs::put(const NewJob& job) {
   const std::lock_guard lock(mutex_);
   dropOld();
-  const auto ofClient = static_cast<std::size_t>(std::count_if(
-      entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.job.client == job.client; }));
-  if (ofClient >= limits_.jobsOfClient) return tooManyJobs(limits_.jobsOfClient);
-  if (entries_.size() >= limits_.jobs || bytes_ + job.request.size() > limits_.bytes)
-    return noRoomForJobs(limits_.bytes);
+  SharedUse use{.capacity = limits_.jobs, .taken = entries_.size()};
+  for (const Entry& entry : entries_) {
+    use.byClient += entry.job.client.name == job.client.name ? 1 : 0;
+    use.bySite += entry.job.client.site == job.client.site ? 1 : 0;
+  }
+  if (use.byClient >= limits_.jobsOfClient) return tooManyJobs(limits_.jobsOfClient);
+  if (use.taken >= use.capacity || bytes_ + job.request.size() > limits_.bytes) return noRoomForJobs(limits_.bytes);
+  if (!mayTakeOne(use)) return noShareOfJobs(limits_.jobs);
   auto file = ResultFile::make(directory_);
   if (!file) return std::move(file).problems();
   Entry entry{.job = job, .progress = queuedProgress(job), .file = *std::move(file)};

@@ -122,11 +122,12 @@ Result<redis::Reply> RedisJobs::ask(const redis::Command& command, std::size_t m
 Status RedisJobs::put(const NewJob& job) {
   const auto reply =
       run(job_scripts::kPut,
-          {job.id, job.key, job.client, job.scene, job.request, std::to_string(job.first), std::to_string(job.count),
-           job.isChained ? "1" : "0", textOf(job.carried), std::to_string(limits_.jobsOfClient),
-           std::to_string(limits_.jobs), std::to_string(limits_.bytes), age()});
+          {job.id, job.key, job.client.name, job.client.site, job.scene, job.request, std::to_string(job.first),
+           std::to_string(job.count), job.isChained ? "1" : "0", textOf(job.carried),
+           std::to_string(limits_.jobsOfClient), std::to_string(limits_.jobs), std::to_string(limits_.bytes), age()});
   if (!reply) return reply.problems();
   if (reply->text == "client") return tooManyJobs(limits_.jobsOfClient);
+  if (reply->text == "share") return noShareOfJobs(limits_.jobs);
   if (reply->text == "room") return noRoomForJobs(limits_.bytes);
   return Done{};
 }
@@ -141,18 +142,18 @@ Result<std::optional<FrameTurn>> RedisJobs::take(std::chrono::milliseconds patie
     const auto reply = run(job_scripts::kTake,
                            {consumer_, lease(), std::to_string(limits_.deliveries), age(), textOf(Problems{poison})});
     if (!reply) return reply.problems();
-    if (reply->elements.size() == 7) {
+    if (reply->elements.size() == 8) {
       const auto& fields = reply->elements;
       auto carried = readCarried(fields[2].text);
       if (!carried) return damaged(kPrefix + ("stream:" + fields[0].text));
       Numbers numbers;
       FrameTurn turn{.job = fields[0].text,
                      .index = numbers.read(fields[1], 0, kMostFrames - 1),
-                     .client = fields[3].text,
-                     .scene = fields[4].text,
+                     .client = {fields[3].text, fields[4].text},
+                     .scene = fields[5].text,
                      .before = *std::move(carried),
-                     .deliveries = numbers.read(fields[5], 1, std::numeric_limits<int>::max()),
-                     .receipt = fields[6].text};
+                     .deliveries = numbers.read(fields[6], 1, std::numeric_limits<int>::max()),
+                     .receipt = fields[7].text};
       if (!numbers.areSound()) return damaged(kPrefix + ("stream:" + turn.job));
       return std::optional(std::move(turn));
     }

@@ -38,7 +38,7 @@ class DispatcherTest : public ::testing::Test {
     task.request =
         R"({"width": 16, "height": 16)" + (node.empty() ? "" : R"(, "camera": {"node": ")" + node + "\"}") + "}";
     task.deadline = Clock::now() + std::chrono::seconds(60);
-    task.client = "test";
+    task.client = {"test", "test"};
     return task;
   }
 

@@ -209,18 +209,24 @@ TEST_F(DispatcherTest, WhoFillsTheQueueTakesNoPlaceOfOthers) {
   std::vector<std::thread> threads = holdWorker(*dispatcher, frame("fault-loop"), leave);
   const auto ask = [&](const std::string& client) {
     Task task = frame();
-    task.client = client;
+    task.client = {client, client};
     return problemOf(dispatcher->run(task, kStays));
   };
   std::atomic<int> refused = 0;
-  for (int i = 0; i < 4; ++i) {
-    threads.emplace_back([&] { refused += ask("greedy") == "busy" ? 1 : 0; });
-  }
-  while (dispatcher->state().waiting < 4) std::this_thread::sleep_for(1ms);
-  EXPECT_EQ(ask("greedy"), "busy");
+  const auto wait = [&](const std::string& client) {
+    const std::size_t before = dispatcher->state().waiting;
+    threads.emplace_back([&, client] { refused += ask(client) == "busy" ? 1 : 0; });
+    while (dispatcher->state().waiting == before) std::this_thread::sleep_for(1ms);
+  };
+  wait("greedy");
+  wait("greedy");
+  EXPECT_EQ(ask("greedy"), "busy") << "half of the queue is its share";
+  wait("second");
+  wait("third"); // it is full
   threads.emplace_back([&] { EXPECT_EQ(ask("modest"), ""); });
   while (refused == 0) std::this_thread::sleep_for(1ms); // one of greedy's gave way
   EXPECT_EQ(dispatcher->state().waiting, 4u);
+  EXPECT_EQ(ask("greedy"), "busy");
   leave = true;
   for (std::thread& each : threads) each.join();
   EXPECT_EQ(refused, 1);
@@ -234,7 +240,7 @@ TEST_F(DispatcherTest, ClientsTakeTurns) {
   for (int i = 0; i < 20; ++i) {
     threads.emplace_back([&] {
       Task task = frame();
-      task.client = "greedy";
+      task.client = {"greedy", "greedy"};
       dispatcher->run(task, kStays);
       ++greedyDone;
     });
@@ -242,7 +248,7 @@ TEST_F(DispatcherTest, ClientsTakeTurns) {
   while (dispatcher->state().waiting < 20) std::this_thread::sleep_for(1ms);
   threads.emplace_back([&] {
     Task task = frame();
-    task.client = "modest";
+    task.client = {"modest", "modest"};
     dispatcher->run(task, kStays);
     greedyBefore = greedyDone.load();
   });

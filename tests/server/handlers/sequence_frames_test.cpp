@@ -61,7 +61,7 @@ class SequenceFramesTest : public ::testing::Test {
     task.bundle = scene_.file;
     task.deadline = Clock::now() + 60s;
     task.lane = Lane::sequence;
-    task.client = "test";
+    task.client = {"test", "test"};
     return std::make_shared<SequenceFrames>(services_, *std::move(request), SceneCounts(), std::move(task), nullptr,
                                             [] { return false; });
   }

@@ -94,7 +94,7 @@ TEST_P(JobQueueTest, EveryFrameIsTakenOnceAndKept) {
     const FrameTurn turn = take();
     EXPECT_EQ(turn.job, "job");
     EXPECT_EQ(turn.scene, "scene");
-    EXPECT_EQ(turn.client, "ann");
+    EXPECT_EQ(turn.client, (ClientIdentity{"ann", "ann"}));
     EXPECT_EQ(turn.deliveries, 1);
     indices.insert(turn.index);
     EXPECT_EQ(progress("job").state, JobState::running);
@@ -274,6 +274,35 @@ TEST_P(JobQueueTest, AClientHasOnlySoManyJobs) {
   put(jobOfFrames("d", 1, "bob"));
   EXPECT_TRUE(*queue_->remove("a"));
   put(jobOfFrames("c", 1));
+}
+
+TEST_P(JobQueueTest, AClientHasHalfOfTheJobsThatOthersLeave) {
+  open({.jobs = 8});
+  for (int i = 0; i < 4; ++i) put(jobOfFrames("ann" + std::to_string(i), 1));
+  const auto refused = queue_->put(jobOfFrames("ann4", 1));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.problems()[0].code, ProblemCode::busy);
+  EXPECT_EQ(refused.problems()[0].limit, "8 jobs");
+  put(jobOfFrames("bob0", 1, "bob"));
+  put(jobOfFrames("bob1", 1, "bob"));
+  EXPECT_FALSE(queue_->put(jobOfFrames("bob2", 1, "bob")));
+  EXPECT_TRUE(*queue_->remove("ann0"));
+  EXPECT_TRUE(queue_->put(jobOfFrames("bob2", 1, "bob"))) << "what was removed is free again";
+}
+
+TEST_P(JobQueueTest, TheNetworksOfOneSiteLeaveJobsToOthersAndTakeTurnsWithThem) {
+  open({.jobs = 16});
+  int kept = 0;
+  for (int i = 0; i < 20; ++i) {
+    NewJob job = jobOfFrames("of site " + std::to_string(i), 1);
+    job.client = {"2001:db8:0:" + std::to_string(i) + "::/64", "2001:db8::/48"};
+    kept += queue_->put(job) ? 1 : 0;
+  }
+  EXPECT_EQ(kept, 12);
+  put(jobOfFrames("modest", 1, "192.0.2.9"));
+  const FrameTurn first = take();
+  EXPECT_EQ(first.client.site, "2001:db8::/48");
+  EXPECT_EQ(take().job, "modest") << "it does not wait for all of theirs";
 }
 
 TEST_P(JobQueueTest, WhatHasNoRoomIsRefusedOrFails) {

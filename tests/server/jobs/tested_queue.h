@@ -28,7 +28,7 @@ std::vector<TestedQueue> testedQueues();
 
 /// A job of `count` frames.
 inline NewJob jobOfFrames(const std::string& id, int count, const std::string& client = "ann") {
-  return {.id = id, .key = client, .client = client, .scene = "scene", .request = "{}", .count = count};
+  return {.id = id, .key = client, .client = {client, client}, .scene = "scene", .request = "{}", .count = count};
 }
 
 /// The content key of drawnFrame(picture).
