@@ -58,10 +58,14 @@ HttpReply tooOften(const AccessKey& key, int seconds, const HttpRequest& request
   return reply;
 }
 
-/// A reply that is made while it is sent is in progress until then.
-void holdWhileSent(HttpReply& reply, std::shared_ptr<void> place) {
-  if (!reply.stream) return;
-  reply.stream = [stream = std::move(reply.stream), place = std::move(place)](const BodySink& sink) { stream(sink); };
+/// A reply that is made while it is sent, or waits, is in progress until then.
+void holdWhileSent(HttpReply& reply, const std::shared_ptr<void>& place) {
+  if (reply.stream) {
+    reply.stream = [stream = std::move(reply.stream), place](const BodySink& sink) { return stream(sink); };
+  }
+  if (reply.later) {
+    reply.later = [later = std::move(reply.later), place] { return later(); };
+  }
 }
 
 std::int64_t secondsSince1970() {
@@ -117,7 +121,7 @@ class AccessCheck {
       HttpReply reply = answer(std::move(asked), clientGone);
       reply.key = key.name;
       keepPrivate(reply, expires);
-      holdWhileSent(reply, std::move(admission.place));
+      holdWhileSent(reply, admission.place);
       return reply;
     };
     return found;

@@ -36,7 +36,7 @@ void StrikeList::addEnd(const std::string& client, Clock::time_point now) {
 }
 
 std::optional<StrikeList::Refusal> StrikeList::refusalOf(const Task& task, Clock::time_point now) {
-  if (auto refusal = refusalOf(task.client, now)) return refusal;
+  if (auto refusal = refusalOf(task.client.name, now)) return refusal;
   if (requests_.size() == 0) return std::nullopt;
   const Request* const request = requests_.find(strikeKey(task), &Request::key);
   if (request == nullptr || request->until <= now) return std::nullopt;

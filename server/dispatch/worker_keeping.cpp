@@ -125,7 +125,7 @@ void Dispatcher::replaceWorker(Slot& slot) {
     } else {
       TaskResult result;
       result.outcome.problems = {endedOver(ticket->ends, slot.fault.problem)};
-      for (int i = 0; i < ticket->kills; ++i) strikes_.addEnd(ticket->task.client, Clock::now());
+      for (int i = 0; i < ticket->kills; ++i) strikes_.addEnd(ticket->task.client.name, Clock::now());
       strikes_.addRequest(ticket->task, result.outcome.problems.front(), Clock::now());
       if (slot.fault.end == WorkerEnd::memory) result.refusal = TaskRefusal::memory;
       finish(ticket, std::move(result));
@@ -138,14 +138,14 @@ void Dispatcher::replaceWorker(Slot& slot) {
 /// Whose tasks ended the slot's worker. Of several it is only known of those that will not be tried again alone.
 void Dispatcher::countEnds(const Slot& slot) {
   for (const auto& [number, ticket] : slot.running) {
-    if (slot.running.size() == 1 || ticket->calledOff) strikes_.addEnd(ticket->task.client, Clock::now());
+    if (slot.running.size() == 1 || ticket->calledOff) strikes_.addEnd(ticket->task.client.name, Clock::now());
   }
 }
 
 /// Ends what waits of clients whose tasks ended too many workers.
 void Dispatcher::refuseStruck() {
   for (const TicketPtr& ticket : std::vector(waiting_.begin(), waiting_.end())) {
-    if (auto refusal = strikes_.refusalOf(ticket->task.client, Clock::now()))
+    if (auto refusal = strikes_.refusalOf(ticket->task.client.name, Clock::now()))
       refuse(ticket, struck(*std::move(refusal)));
   }
 }

@@ -68,14 +68,19 @@ std::string problemText(const Problems& reasons, const std::string& requestId) {
   return jsonText(problemJson(problems, statusOf(problems.front().code), requestId));
 }
 
-HttpReply eventReply(const RouteCall& call, EventWork work) {
+HttpReply eventStream() {
   HttpReply reply;
   reply.contentType = kEventStream;
   reply.headers.emplace_back("X-Accel-Buffering", "no"); // asks proxies to pass events on at once
+  return reply;
+}
+
+HttpReply eventReply(const RouteCall& call, EventWork work) {
+  HttpReply reply = eventStream();
   const auto result = std::make_shared<StreamResult>();
   reply.streamed = result;
   reply.stream = [work = std::move(work), result, requestId = call.request.id,
-                  clientGone = call.clientGone](const BodySink& sink) {
+                  clientGone = call.clientGone](const BodySink& sink) -> std::shared_ptr<ReplyWait> {
     constexpr std::chrono::milliseconds kHeartbeat{5'000};
     EventStream events;
     std::atomic<bool> clientLeft = false;
@@ -99,6 +104,7 @@ HttpReply eventReply(const RouteCall& call, EventWork work) {
     }
     clientLeft = !events.sendTo(sink, kHeartbeat);
     if (working.joinable()) working.join();
+    return nullptr;
   };
   return reply;
 }

@@ -51,6 +51,9 @@ class EventStream {
 /// thread; true = the client is gone, and the work should end soon.
 using EventWork = std::function<StreamResult(const std::function<bool()>& gone, EventStream& events)>;
 
+/// A reply of events, without them.
+HttpReply eventStream();
+
 /// A reply of events that are sent while `work` runs, on a thread of its own. An exception becomes an event `problem`.
 HttpReply eventReply(const RouteCall& call, EventWork work);
 

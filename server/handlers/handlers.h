@@ -16,9 +16,12 @@
 #include "server/http/connection.h"
 #include "server/http/reply.h"
 #include "server/http/router.h"
+#include "server/jobs/job_news.h"
 #include "server/jobs/job_queue.h"
 #include "server/scenes/scene_store.h"
 #include "server/system/byte_budget.h"
+#include "server/system/fair_shares.h"
+#include "server/system/lasting.h"
 
 namespace gnomon {
 
@@ -29,13 +32,16 @@ struct Services {
   ByteBudget& replyBytes; ///< that of the connections, for what handlers hold of replies before it is sent
   JobQueue& jobs;
   JobLimits jobLimits{};
-  FrameEnds jobFrames{}; ///< that this server took
+  FrameEnds jobFrames{};   ///< that this server took
+  JobNews jobNews{jobs};   ///< for replies that wait
+  FairShares waits{1'024}; ///< how many replies may wait for news of jobs
   Limits limits;
   std::chrono::milliseconds requestTimeout{60'000};     ///< from a request's first byte to its reply
   std::chrono::milliseconds evaluationTimeout{600'000}; ///< the same of evaluations and bakes
   std::chrono::milliseconds sequenceTimeout{3'600'000}; ///< of all frames of a sequence
   std::chrono::milliseconds replyRoom = ConnectionLimits().replyRoom;
-  const StopSignal* cut = nullptr; ///< once raised, no reply waits for room any more; nullptr = never
+  const Lasting* lackingThreads = nullptr; ///< requests that come find no thread; nullptr = they always do
+  const StopSignal* cut = nullptr;         ///< once raised, no reply waits for room any more; nullptr = never
   std::vector<StaticFile> page;
   std::counting_semaphore<> evaluations{1}; ///< how many more may run at once
   std::counting_semaphore<> bakes{1};       ///< the same

@@ -6,6 +6,7 @@
 #include "server/handlers/event_reply.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/job_reply.h"
+#include "server/handlers/job_waits.h"
 #include "server/handlers/sequence_forms.h"
 #include "server/handlers/work.h"
 #include "server/http/negotiation.h"
@@ -27,6 +28,10 @@ Result<std::chrono::seconds> waitOf(const Services& services, const HttpRequest&
   return std::min(std::chrono::seconds(preferredWait(request).value_or(0)), most);
 }
 
+std::string textOfJob(const Services& services, const JobProgress& progress) {
+  return jsonText(toJson(jobOf(progress, services.jobLimits.age)));
+}
+
 HttpReply replyOfJob(const Services& services, const JobProgress& progress) {
   HttpReply reply = jsonReply(toJson(jobOf(progress, services.jobLimits.age)));
   reply.headers = {{"Cache-Control", "no-store"}, {"Vary", "Accept"}};
@@ -40,28 +45,6 @@ HttpReply headOnly(HttpReply reply, const RouteCall& call) {
   reply.streamed = nullptr;
   reply.bodyOmitted = true;
   return reply;
-}
-
-/// An event for each frame that is drawn, and at last one for the end.
-HttpReply eventsOfJob(Services& services, const RouteCall& call, JobProgress job) {
-  return eventReply(call,
-                    [&services, job = std::move(job), until = call.request.arrived + services.sequenceTimeout,
-                     requestId = call.request.id](const std::function<bool()>& gone, EventStream& events) mutable {
-                      const auto text = [&] { return jsonText(toJson(jobOf(job, services.jobLimits.age))); };
-                      const auto isOver = [&] { return job.isEnded() || job.state == JobState::cancelled; };
-                      events.put("progress", text());
-                      while (!isOver() && !gone() && !services.draining && Clock::now() < until) {
-                        auto news = newsOf(services, job, until, gone);
-                        if (!news) {
-                          events.put("problem", problemText(news.problems(), requestId));
-                          return StreamResult{.problem = news.problems().front().detail};
-                        }
-                        job = *std::move(news);
-                        if (!isOver()) events.put("progress", text());
-                      }
-                      if (isOver()) events.put("result", text());
-                      return StreamResult{};
-                    });
 }
 
 /// As the job's request, which was checked, has it.
@@ -94,14 +77,17 @@ HttpReply getJob(Services& services, RouteCall call) {
   if (!wait) return problemReply(wait.problems(), call.request.id);
   auto job = jobAt(services, call);
   if (!job) return jobProblem(job.problems(), call);
-  if (kJobForms[*form] == kEventStream) return headOnly(eventsOfJob(services, call, *std::move(job)), call);
-  const auto until = Clock::now() + *wait;
-  while (!job->isEnded() && job->state != JobState::cancelled && Clock::now() < until && !call.clientGone() &&
-         !services.draining) {
-    job = newsOf(services, *job, until, call.clientGone);
-    if (!job) return jobProblem(job.problems(), call);
+  const bool isEvents = kJobForms[*form] == kEventStream;
+  if (!isEvents && (wait->count() == 0 || isOver(*job))) return replyOfJob(services, *job);
+  const auto until = isEvents ? call.request.arrived + services.sequenceTimeout : Clock::now() + *wait;
+  auto waiting = waitingFor(services, call, *std::move(job), until);
+  if (!waiting) return jobProblem(waiting.problems(), call);
+  if (!isEvents) {
+    return replyAtEnd(services, call, *std::move(waiting),
+                      [&services](const JobProgress& latest) { return replyOfJob(services, latest); });
   }
-  return replyOfJob(services, *job);
+  const auto textOf = [&services](const JobProgress& latest) { return textOfJob(services, latest); };
+  return headOnly(eventsOfJob(services, call, *std::move(waiting), textOf), call);
 }
 
 HttpReply deleteJob(Services& services, RouteCall call) {
@@ -124,8 +110,9 @@ HttpReply getJobResult(Services& services, RouteCall call) {
   if (job->state == JobState::failed && job->done == 0) return jobProblem(job->problems, call);
   const auto framesPerSecond = framesPerSecondOf(services, job->id);
   if (!framesPerSecond) return jobProblem(framesPerSecond.problems(), call);
-  auto frames = std::make_shared<JobFrames>(services, *std::move(job), call.request.arrived + services.sequenceTimeout,
-                                            holderOf(call.request), call.clientGone);
+  auto waiting = waitingFor(services, call, *std::move(job), call.request.arrived + services.sequenceTimeout);
+  if (!waiting) return jobProblem(waiting.problems(), call);
+  auto frames = std::make_shared<JobFrames>(services, *std::move(waiting), holderOf(call.request), call.clientGone);
   const SequenceReport report{.framesPerSecond = *framesPerSecond, .renderer = services.workers.info()};
   return headOnly(
       sequenceReply(sequenceForm(kSequenceForms[*form], call), call, std::move(frames), std::nullopt, report), call);

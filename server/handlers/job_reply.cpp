@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <ctime>
-#include <thread>
 
 #include "protocol/sequence/sequence.h"
 
@@ -17,10 +16,6 @@ std::string timeTextOf(std::int64_t milliseconds) {
   std::array<char, 40> text{};
   const std::size_t length = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
   return {text.data(), length};
-}
-
-bool isSame(const JobProgress& a, const JobProgress& b) {
-  return a.state == b.state && a.done == b.done;
 }
 
 } // namespace
@@ -61,74 +56,59 @@ HttpReply jobProblem(const Problems& problems, const RouteCall& call) {
       {.retryAfterSeconds = kRetrySeconds, .refusal = isBusy ? RefusalReason::permits : RefusalReason::none});
 }
 
-Result<JobProgress> newsOf(Services& services, const JobProgress& seen, Clock::time_point until,
-                           const std::function<bool()>& gone) {
-  constexpr std::chrono::milliseconds kShortest{20};
-  constexpr std::chrono::milliseconds kLongest{250};
-  for (auto pause = kShortest;; pause = std::min(pause * 2, kLongest)) {
-    auto found = services.jobs.find(seen.id);
-    if (!found) return found.problems();
-    if (!*found) {
-      JobProgress cancelled = seen;
-      cancelled.state = JobState::cancelled;
-      return cancelled;
-    }
-    const bool isOver = Clock::now() >= until || gone() || services.draining;
-    if (isOver || !isSame(**found, seen)) return **std::move(found);
-    std::this_thread::sleep_for(std::min<Clock::duration>(pause, until - Clock::now()));
-  }
-}
-
-JobFrames::JobFrames(Services& services, JobProgress job, Clock::time_point until, Holder holder,
-                     std::function<bool()> clientGone)
+JobFrames::JobFrames(Services& services, JobWaiting waiting, Holder holder, std::function<bool()> clientGone)
     : services_(services),
-      job_(std::move(job)),
-      until_(until),
+      waiting_(std::move(waiting)),
       holder_(std::move(holder)),
       clientGone_(std::move(clientGone)),
-      next_(job_.first),
-      carried_(job_.carried) {}
+      next_(waiting_.seen.first),
+      carried_(waiting_.seen.carried) {}
 
-/// Why there will be no next frame; none once it is there.
-Problems JobFrames::await(const std::function<void()>& waiting) {
-  constexpr std::chrono::milliseconds kHeartbeat{5'000};
-  while (true) {
-    const auto note = services_.jobs.note(job_.id, next_);
-    if (!note) return note.problems();
-    if (*note) return {};
-    if (job_.state == JobState::failed) return atLeastOne(job_.problems);
-    if (job_.state == JobState::cancelled || job_.state == JobState::done) return {unknownJob(job_.id)};
-    if (services_.draining) return {{ProblemCode::unavailable, "", "The server is shutting down.", "", ""}};
-    if (clientGone_()) return {{ProblemCode::unavailable, "", "The client left.", "", ""}};
-    if (Clock::now() >= until_) {
-      return {{ProblemCode::deadlineExceeded, "",
-               "The job was not done in the time of a sequence (--sequence-timeout); it goes on, and may be asked for "
-               "again.",
-               "", ""}};
-    }
-    auto news = newsOf(services_, job_, std::min(until_, Clock::now() + kHeartbeat), clientGone_);
-    if (!news) return news.problems();
-    if (news->done == job_.done && !news->isEnded()) waiting();
-    job_ = *std::move(news);
+/// Why there will be no next frame, unless it is there.
+Problems JobFrames::whyNone() const {
+  const JobProgress& job = waiting_.seen;
+  if (!lost_.empty()) return lost_;
+  if (job.state == JobState::failed) return atLeastOne(job.problems);
+  if (isOver(job)) return {unknownJob(job.id)};
+  if (services_.draining) return {{ProblemCode::unavailable, "", "The server is shutting down.", "", ""}};
+  if (clientGone_()) return {{ProblemCode::unavailable, "", "The client left.", "", ""}};
+  if (Clock::now() < waiting_.until) return {};
+  return {{ProblemCode::deadlineExceeded, "",
+           "The job was not done in the time of a sequence (--sequence-timeout); it goes on, and may be asked for "
+           "again.",
+           "", ""}};
+}
+
+std::shared_ptr<ReplyWait> JobFrames::wait(std::string_view heartbeat) {
+  const auto latest = waiting_.job->latest();
+  if (*latest) {
+    waiting_.seen = **latest;
+  } else {
+    lost_ = latest->problems();
   }
+  const auto note = services_.jobs.note(waiting_.seen.id, next_); // later than what was seen of the job
+  if (!note) lost_ = note.problems();
+  if (!note || *note || !whyNone().empty()) return nullptr;
+  return newsWait(services_, waiting_, heartbeat);
 }
 
 /// Waits for room before it reads.
 Result<JobFrame> JobFrames::read(ByteLease& room) {
-  const auto note = services_.jobs.note(job_.id, next_);
+  const auto note = services_.jobs.note(waiting_.seen.id, next_);
   if (!note) return note.problems();
   const std::size_t bytes = *note ? bytesOf((*note)->pictures).value_or(0) : 0;
-  if (!room.growBy(std::min(bytes, services_.replyBytes.total()), until_, clientGone_)) return noReplyRoom();
-  auto frame = services_.jobs.frame(job_.id, next_);
+  if (!room.growBy(std::min(bytes, services_.replyBytes.total()), waiting_.until, clientGone_)) return noReplyRoom();
+  auto frame = services_.jobs.frame(waiting_.seen.id, next_);
   if (!frame) return frame.problems();
-  if (!*frame) return unknownJob(job_.id);
+  if (!*frame) {
+    Problems problems = whyNone();
+    return problems.empty() ? Problems{unknownJob(waiting_.seen.id)} : problems;
+  }
   return **std::move(frame);
 }
 
-DoneFrame JobFrames::next(const std::function<void()>& waiting) {
+DoneFrame JobFrames::next(const std::function<void()>&) {
   DoneFrame done{.index = next_, .room = std::make_unique<ByteLease>(services_.replyBytes, holder_)};
-  done.problems = await(waiting);
-  if (!done.problems.empty()) return done;
   auto frame = read(*done.room);
   if (!frame) {
     done.problems = frame.problems();

@@ -4,6 +4,7 @@
 
 #include "protocol/job/job.h"
 #include "server/handlers/handlers.h"
+#include "server/handlers/job_waits.h"
 #include "server/handlers/sequence_frames.h"
 #include "server/jobs/job_queue.h"
 
@@ -19,32 +20,26 @@ Result<JobProgress> jobAt(Services& services, const RouteCall& call);
 /// A refusal that says when to try again, where its problem passes.
 HttpReply jobProblem(const Problems& problems, const RouteCall& call);
 
-/// Waits for news of a job: until it is no more as `seen`, or the time is over, or `gone`. A job that is not there any
-/// more is `cancelled`. Problem: unavailable.
-Result<JobProgress> newsOf(Services& services, const JobProgress& seen, Clock::time_point until,
-                           const std::function<bool()>& gone);
-
 /// The frames of a job, in order, as others draw them.
 class JobFrames final : public FrameSource {
  public:
-  /// `until`: when waiting ends with a problem.
-  JobFrames(Services& services, JobProgress job, Clock::time_point until, Holder holder,
-            std::function<bool()> clientGone);
+  JobFrames(Services& services, JobWaiting waiting, Holder holder, std::function<bool()> clientGone);
 
-  bool atEnd() const override { return next_ == job_.count; }
-  int count() const override { return job_.count; }
+  bool atEnd() const override { return next_ == waiting_.seen.count; }
+  int count() const override { return waiting_.seen.count; }
+  std::shared_ptr<ReplyWait> wait(std::string_view heartbeat) override;
   DoneFrame next(const std::function<void()>& waiting) override;
 
  private:
-  Problems await(const std::function<void()>& waiting);
+  Problems whyNone() const;
   Result<JobFrame> read(ByteLease& room);
 
   Services& services_;
-  JobProgress job_; ///< as it was last seen
-  const Clock::time_point until_;
+  JobWaiting waiting_; ///< its end is that of the time for all frames
   const Holder holder_;
   const std::function<bool()> clientGone_;
   int next_;
+  Problems lost_{}; ///< of the queue, which does not answer
   Carried carried_; ///< of the frames before the next
 };
 

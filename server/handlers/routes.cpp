@@ -40,17 +40,23 @@ HttpReply getLivez(Services&, RouteCall) {
   return probeReply("alive\n");
 }
 
-/// 503 while the server drains, no worker is ready, or the queue before them is nearly full.
+/// 503 while the server drains, the queue is nearly full, or there was no worker or thread for a request for so long
+/// that none is about to come: a worker that is being replaced, and a crowd that passes, are no reason.
 HttpReply getReadyz(Services& services, RouteCall call) {
+  constexpr std::chrono::seconds kPatience{5};
   const DispatcherState state = services.workers.state();
+  const StoreState store = services.store.state();
+  const auto lacking = services.lackingThreads ? services.lackingThreads->duration() : Clock::duration();
   const char* reason = services.draining                      ? "The server is shutting down."
-                       : state.ready == 0                     ? "No worker is ready."
+                       : state.noneReadyFor > kPatience       ? "No worker is ready."
                        : state.waiting * 4 >= state.limit * 3 ? "The queue before the workers is nearly full."
-                                                              : nullptr;
+                       : lacking > kPatience                  ? "Requests find no thread."
+                       : !store.isReachable && store.inMemory.scenes == 0
+                           ? "The store can't be reached, and no scene is in memory."
+                           : nullptr;
   if (reason != nullptr) return problemReply({{ProblemCode::unavailable, "", reason, "", ""}}, call.request.id);
-  // What is in memory is served without it.
-  const bool hasStore = services.store.state().isReachable;
-  return probeReply(hasStore ? "ready\n" : "ready, but for scenes that are not in memory: the store's Redis is away\n");
+  return probeReply(store.isReachable ? "ready\n"
+                                      : "ready, but for scenes that are not in memory: the store's Redis is away\n");
 }
 
 HttpReply getMetrics(Services& services, RouteCall) {

@@ -105,7 +105,7 @@ bool sendBase64(const BodySink& sink, std::string_view bytes) {
 class EventForm final : public SequenceForm {
  public:
   bool begin(const BodySink& sink) override { return sink(":\n\n"); }
-  bool waiting(const BodySink& sink) override { return sink(":\n\n"); } // keeps proxies from closing the connection
+  std::string_view heartbeat() const override { return ":\n\n"; }
   bool frame(const BodySink& sink, const DoneFrame& frame, int of) override {
     SequenceFrame described{
         .index = frame.index, .of = of, .carried = frame.carried, .stages = frame.result.outcome.stages};
@@ -152,33 +152,67 @@ void note(const DoneFrame& frame, SequenceReport& report) {
   }
 }
 
-/// Sends everything. Returns what became of it.
-StreamResult sendAllFrames(SequenceForm& form, const BodySink& sink, FrameSource& frames,
-                           std::optional<DoneFrame> first, SequenceReport report, const std::string& requestId) {
-  const auto start = Clock::now();
-  const double before = first ? first->milliseconds : 0;
-  bool isThere = form.begin(sink);
-  while (isThere) {
-    DoneFrame frame =
-        first ? *std::exchange(first, std::nullopt) : frames.next([&] { isThere = form.waiting(sink) && isThere; });
-    if (frame.problems.empty())
-      if (auto encoded = form.encode(frame); !encoded) frame.problems = encoded.problems();
-    if (!frame.problems.empty()) {
-      form.problem(sink, problemText(frame.problems, requestId));
-      StreamResult ended{.problem = frame.problems.front().detail};
-      ended.refusal = refusalOfStatus(statusOf(frame.problems.front().code));
-      return ended;
+/// A reply that sends frames, from one wait for a frame to the next.
+class SequenceStream {
+ public:
+  SequenceStream(std::shared_ptr<SequenceForm> form, std::shared_ptr<FrameSource> frames,
+                 std::optional<DoneFrame> first, SequenceReport report, std::string requestId)
+      : form_(std::move(form)),
+        frames_(std::move(frames)),
+        first_(std::move(first)),
+        report_(std::move(report)),
+        requestId_(std::move(requestId)),
+        before_(first_ ? first_->milliseconds : 0) {}
+
+  /// What the next frame waits for; nullptr at the end, whatever that is.
+  std::shared_ptr<ReplyWait> goOn(const BodySink& sink) {
+    if (!start_) {
+      start_ = Clock::now();
+      isThere_ = form_->begin(sink);
     }
-    note(frame, report);
-    isThere = form.frame(sink, frame, frames.count()) && isThere;
-    if (isThere && frames.atEnd()) {
-      report.milliseconds = before + millisecondsSince(start);
-      form.report(sink, jsonText(toJson(report)));
-      return {};
+    while (isThere_ && !isOver_) {
+      if (!first_) {
+        if (auto wait = frames_->wait(form_->heartbeat())) return wait;
+      }
+      sendNext(sink);
     }
+    return nullptr; // the connection notes why not everything was sent
   }
-  return {}; // the connection notes why not everything was sent
-}
+
+  std::shared_ptr<const StreamResult> result() const { return result_; }
+
+ private:
+  void sendNext(const BodySink& sink) {
+    const auto waiting = [&] { isThere_ = isThere_ && (form_->heartbeat().empty() || sink(form_->heartbeat())); };
+    DoneFrame frame = first_ ? *std::exchange(first_, std::nullopt) : frames_->next(waiting);
+    if (frame.problems.empty())
+      if (auto encoded = form_->encode(frame); !encoded) frame.problems = encoded.problems();
+    if (!frame.problems.empty()) {
+      form_->problem(sink, problemText(frame.problems, requestId_));
+      result_->problem = frame.problems.front().detail;
+      result_->refusal = refusalOfStatus(statusOf(frame.problems.front().code));
+      isOver_ = true;
+      return;
+    }
+    note(frame, report_);
+    isThere_ = form_->frame(sink, frame, frames_->count()) && isThere_;
+    if (!isThere_ || !frames_->atEnd()) return;
+    report_.milliseconds = before_ + millisecondsSince(*start_);
+    form_->report(sink, jsonText(toJson(report_)));
+    isOver_ = true;
+  }
+
+  const std::shared_ptr<SequenceForm> form_;
+  const std::shared_ptr<FrameSource> frames_;
+  std::optional<DoneFrame> first_;
+  SequenceReport report_;
+  const std::string requestId_;
+  const double before_; ///< milliseconds
+  const std::shared_ptr<StreamResult> result_ = std::make_shared<StreamResult>();
+  std::optional<Clock::time_point> start_;
+  bool isThere_ = true; ///< the client
+  bool isOver_ = false;
+};
 
 } // namespace
 
@@ -216,13 +250,10 @@ HttpReply sequenceReply(TypedForm form, const RouteCall& call, std::shared_ptr<F
   reply.headers.emplace_back("X-Accel-Buffering", "no");   // asks proxies to pass frames on at once
   reply.headers.emplace_back("Cache-Control", "no-store"); // it contains times
   reply.headers.emplace_back("Vary", "Accept");
-  const auto result = std::make_shared<StreamResult>();
-  reply.streamed = result;
-  const auto waited = std::make_shared<std::optional<DoneFrame>>(std::move(first));
-  reply.stream = [form = std::move(form.form), frames = std::move(frames), waited, result, report = std::move(report),
-                  requestId = call.request.id](const BodySink& sink) {
-    *result = sendAllFrames(*form, sink, *frames, std::exchange(*waited, std::nullopt), report, requestId);
-  };
+  const auto stream = std::make_shared<SequenceStream>(std::move(form.form), std::move(frames), std::move(first),
+                                                       std::move(report), call.request.id);
+  reply.streamed = stream->result();
+  reply.stream = [stream](const BodySink& sink) { return stream->goOn(sink); };
   return reply;
 }
 

@@ -46,7 +46,7 @@ class SequenceForm {
  public:
   virtual ~SequenceForm() = default;
   virtual bool begin(const BodySink&) { return true; }
-  virtual bool waiting(const BodySink&) { return true; }     ///< nothing came for some seconds
+  virtual std::string_view heartbeat() const { return {}; }  ///< sent where nothing came for some seconds
   virtual Status encode(const DoneFrame&) { return Done{}; } ///< before it is sent; a problem ends the sequence
   virtual bool frame(const BodySink& sink, const DoneFrame& frame, int of) = 0;
   virtual bool report(const BodySink& sink, std::string_view json) = 0;

@@ -61,6 +61,10 @@ class FrameSource {
   virtual bool atEnd() const = 0;
   virtual int count() const = 0; ///< of the whole sequence
 
+  /// What the next frame waits for without a thread; nullptr = next() has it, or waits itself. `heartbeat`: of that
+  /// wait.
+  virtual std::shared_ptr<ReplyWait> wait(std::string_view heartbeat) { return static_cast<void>(heartbeat), nullptr; }
+
   /// The next frame. `waiting` is called every few seconds until it is there. After one with problems there is none.
   /// REQUIRES: not atEnd().
   virtual DoneFrame next(const std::function<void()>& waiting) = 0;

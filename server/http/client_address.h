@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,7 +23,9 @@ struct PeerAddress {
   ClientIdentity identity; ///< without a key
 };
 
-/// A client between two of its requests.
+struct HeldReply;
+
+/// A client between two of its requests, or whose reply waits.
 struct OpenConnection {
   FileDescriptor socket;
   PeerAddress peer;
@@ -30,9 +33,10 @@ struct OpenConnection {
   Clock::time_point arrived{}; ///< their first
   std::size_t requests = 0;    ///< answered so far
   bool ending = false;         ///< its last reply is sent: what still comes is passed over until the client closes
+  std::shared_ptr<HeldReply> held{}; ///< the reply that waits (waiting_replies.h), or goes on once it has a thread
 
   /// Nothing of a request has come, or nothing but an empty line, which may precede it (RFC 9112 section 2.2).
-  bool isSilent() const { return received.empty() || received == "\r" || received == "\r\n"; }
+  bool isSilent() const { return !held && (received.empty() || received == "\r" || received == "\r\n"); }
 };
 
 /// An address of IPv4, or of IPv6. One of IPv4 that is written as IPv6 (::ffff:192.0.2.1) is one of IPv4.

@@ -1,12 +1,15 @@
 #include "server/http/connection.h"
 
 #include <exception>
+#include <iterator>
 #include <memory>
 #include <sys/socket.h>
 #include <utility>
 
 #include "server/http/reply_sender.h"
 #include "server/http/socket_io.h"
+#include "server/http/unserved_reply.h"
+#include "server/http/waiting_replies.h"
 #include "server/system/log.h"
 
 namespace gnomon {
@@ -26,19 +29,6 @@ class Counted {
   std::atomic<std::size_t>& count_;
 };
 
-/// The request of a head, and what the record has of it.
-Result<HttpRequest> requestOf(const Result<RequestHead>& head, std::string_view bytes, RequestRecord& record) {
-  record.note(head ? HeadExcerpt{head->method, head->target} : excerptOf(bytes));
-  auto request = head ? requestFromHead(*head) : Result<HttpRequest>(head.problems());
-  if (!request) {
-    record.id = requestId(head ? headerValue(head->headers, "x-request-id") : std::nullopt);
-    return request;
-  }
-  record.id = request->id;
-  record.trace = request->trace;
-  return request;
-}
-
 class Connection {
  public:
   Connection(OpenConnection connection, ConnectionContext& context)
@@ -46,18 +36,23 @@ class Connection {
         context_(context),
         reader_(connection_.socket.get(), std::exchange(connection_.received, {})) {}
 
+  /// Nothing where its last reply was not sent whole.
   std::optional<OpenConnection> serve(const std::function<bool()>& mayStay) {
-    for (auto length = headWaiting(); length; length = nextHead(mayStay)) {
+    bool isLast = connection_.held && !goOn(std::exchange(connection_.held, nullptr));
+    while (!isLast && !connection_.held) {
+      const auto length = nextHead(mayStay);
+      if (!length) break;
       ++connection_.requests;
-      if (!serveOne(*length)) {
-        if (isCut_) return std::nullopt;
-        ::shutdown(connection_.socket.get(), SHUT_WR);
-        connection_.ending = true;
-        return std::move(connection_);
-      }
+      isLast = !serveOne(*length);
       connection_.arrived = Clock::now(); // what is buffered already waited for the reply before it
     }
-    connection_.received = reader_.take();
+    if (isCut_) return std::nullopt;
+    if (isLast) {
+      ::shutdown(connection_.socket.get(), SHUT_WR);
+      connection_.ending = true;
+    } else {
+      connection_.received = reader_.take();
+    }
     return std::move(connection_);
   }
 
@@ -74,6 +69,35 @@ class Connection {
   std::optional<std::size_t> headWaiting() const {
     const auto length = headLength(reader_.buffered());
     return length && *length <= kMaxHeadBytes ? length : std::nullopt;
+  }
+
+  /// The reply that has waited. False after the connection's last reply.
+  bool goOn(std::shared_ptr<HeldReply> held) {
+    const Counted counted(context_.inProgress);
+    watch_ = held->watch;
+    holder_ = held->holder;
+    held->reply.wait = nullptr;
+    if (const auto later = std::exchange(held->reply.later, nullptr)) {
+      HttpReply reply = guarded(held->record.id, later);
+      reply.key = std::move(held->reply.key);
+      std::move(held->reply.headers.begin(), held->reply.headers.end(), std::back_inserter(reply.headers));
+      held->reply = std::move(reply);
+    }
+    return deliver(std::move(held));
+  }
+
+  /// Sends a reply, unless it waits. False after the connection's last reply.
+  bool deliver(std::shared_ptr<HeldReply> held) {
+    bool isKept = false;
+    if (held->reply.stream && !held->reply.wait) {
+      held->reply.wait = sendStream(*held);
+      if (!held->reply.wait) watch_->end();
+    } else if (!held->reply.wait) {
+      isKept = sendAnswer(std::move(held->reply), held->record, held->keepAlive, held->bodyless);
+      watch_->end();
+    }
+    if (held->reply.wait) connection_.held = std::move(held);
+    return isKept || connection_.held;
   }
 
   /// False after the connection's last reply.
@@ -119,10 +143,8 @@ class Connection {
       watch_ = std::make_shared<ClientWatch>(connection_.socket.get(), head->isHttp11);
       reply = answer(handler, *std::move(request));
     }
-    const bool kept = reply.stream ? sendStream(std::move(reply), record)
-                                   : sendAnswer(std::move(reply), record, mayKeep(*head), bodyless);
-    watch_->end();
-    return kept;
+    return deliver(std::make_shared<HeldReply>(std::move(reply), std::move(record), watch_, holder_,
+                                               mayKeep(*head), bodyless, head->isHttp11));
   }
 
   bool mayKeep(const RequestHead& head) const {
@@ -142,12 +164,17 @@ class Connection {
     return std::nullopt;
   }
 
-  /// Nothing that a handler throws leaves it.
   HttpReply answer(const RequestHandler& handler, HttpRequest request) {
-    const std::string id = request.id;
+    return guarded(request.id,
+                   [&] { return handler.answer(std::move(request), [watch = watch_] { return watch->left(); }); });
+  }
+
+  /// Nothing that a handler throws leaves it.
+  static HttpReply guarded(const std::string& requestId, const std::function<HttpReply()>& made) {
+    const std::string id = requestId;
     std::string note;
     try {
-      return handler.answer(std::move(request), [watch = watch_] { return watch->left(); });
+      return made();
     } catch (const std::exception& error) {
       note = error.what();
     } catch (...) {
@@ -219,32 +246,34 @@ class Connection {
     context_.ended(record, reply);
   }
 
-  /// Its end is the connection's.
-  bool sendStream(HttpReply reply, RequestRecord& record) {
-    watch_->beginStream();
-    addTrace(reply, record.trace);
+  /// Sends what there is; what the rest waits for, or nullptr at its end, which is the connection's.
+  std::shared_ptr<ReplyWait> sendStream(HeldReply& held) {
+    HttpReply& reply = held.reply;
+    RequestRecord& record = held.record;
     ReplySender sender = senderOf();
     const auto sink = [&](std::string_view bytes) {
       const bool isSent = sender.send(bytes) == Delivery::whole;
       record.replyBytes += isSent ? bytes.size() : 0;
       return isSent;
     };
-    const bool begun = sink(replyHead(reply, record.id, false));
-    record.replyBytes = 0; // counts the body alone
-    if (begun) {
+    if (!held.isBegun) {
+      watch_->beginStream();
+      addTrace(reply, record.trace);
+      held.isBegun = true;
+      sink(replyHead(reply, record.id, false));
+      record.replyBytes = 0; // counts the body alone
+    }
+    if (sender.delivery() == Delivery::whole) {
       try {
-        reply.stream(sink);
+        auto wait = reply.stream(sink);
+        if (wait && sender.delivery() == Delivery::whole) return wait;
       } catch (const std::exception& error) {
         reply.note = error.what(); // its status is sent already: the body ends early
       }
     }
-    if (reply.streamed) {
-      reply.stages = reply.streamed->stages;
-      reply.problem = reply.streamed->problem;
-      reply.refusal = reply.streamed->refusal;
-    }
+    held.takeResult();
     sent(sender.delivery(), record, reply);
-    return false;
+    return nullptr;
   }
 
   OpenConnection connection_;
@@ -270,30 +299,6 @@ std::optional<OpenConnection> serveConnection(OpenConnection connection, Connect
     logEvent("connection", error.what()); // out of memory while a head was read: the client is cut off, we go on
     return std::nullopt;
   }
-}
-
-std::optional<UnservedReply> replyToUnserved(const HttpService& service, std::string_view head,
-                                             const std::optional<Problem>& refusal) {
-  UnservedReply unserved;
-  RequestRecord& record = unserved.record;
-  auto request = requestOf(parseRequestHead(head), head, record);
-  if (!request) {
-    unserved.reply = problemReply(request.problems(), record.id, {.read = RequestPart::head});
-    return unserved;
-  }
-  unserved.bodyless = request->method == "HEAD";
-  auto found = service(*request);
-  const auto* handler = std::get_if<RequestHandler>(&found);
-  record.route = handler != nullptr ? handler->route : std::get<HttpReply>(found).route;
-  if (handler != nullptr && handler->isProbe) {
-    unserved.reply = handler->answer(*std::move(request), [] { return false; });
-    return unserved;
-  }
-  if (!refusal) return std::nullopt;
-  const bool isBusy = refusal->code == ProblemCode::busy;
-  unserved.reply =
-      problemReply({*refusal}, record.id, {.refusal = isBusy ? RefusalReason::address : RefusalReason::threads});
-  return unserved;
 }
 
 } // namespace gnomon

@@ -11,6 +11,7 @@
 #include "server/http/reply.h"
 #include "server/http/request_body.h"
 #include "server/http/request_log.h"
+#include "server/system/lasting.h"
 
 namespace gnomon {
 
@@ -62,6 +63,7 @@ struct ConnectionContext {
   std::vector<IpNetwork> trustedProxies{}; ///< whose X-Forwarded-For is trusted
   RequestObserver* observer = nullptr;     ///< outlives the context; nullptr = none
   std::atomic<std::size_t> inProgress{0};  ///< requests that have a thread
+  Lasting lackingThreads{};                ///< requests that come find none
 
   /// A request's end: its line in the log, and the observer's.
   void ended(const RequestRecord& record, const HttpReply& reply) const noexcept;
@@ -72,17 +74,5 @@ struct ConnectionContext {
 /// `mayStay`: whether the thread may wait a moment for the next request, since no other connection wants it.
 std::optional<OpenConnection> serveConnection(OpenConnection connection, ConnectionContext& context,
                                               const std::function<bool()>& mayStay) noexcept;
-
-/// The reply to a request that no thread serves, as it is sent and logged.
-struct UnservedReply {
-  HttpReply reply;
-  RequestRecord record; ///< without its client and its start
-  bool bodyless = false;
-};
-
-/// What can be said to a complete head without a thread: a probe is answered, a malformed head refused, and anything
-/// else refused with `refusal`. Nothing where there is none: the request may go on waiting.
-std::optional<UnservedReply> replyToUnserved(const HttpService& service, std::string_view head,
-                                             const std::optional<Problem>& refusal);
 
 } // namespace gnomon

@@ -4,9 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
-#include <mutex>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "server/http/client_address.h"
@@ -73,21 +71,6 @@ class ConnectionSet {
   FileDescriptor poll_;
   std::map<int, PendingConnection> all_;
   Clock::time_point nextDeadline_ = Clock::time_point::max(); ///< no connection's is earlier
-};
-
-/// Shares of the threads that serve requests, one for each client. Any thread.
-class ClientShares {
- public:
-  explicit ClientShares(std::size_t most) : most_(most) {}
-
-  /// False where this client has its share already.
-  bool take(const std::string& network);
-  void giveBack(const std::string& network);
-
- private:
-  const std::size_t most_;
-  std::mutex mutex_;
-  std::map<std::string, std::size_t> taken_;
 };
 
 } // namespace gnomon

@@ -40,9 +40,9 @@ class Listener {
 
 struct HttpServerOptions {
   std::string bind = "127.0.0.1";
-  int port = 0;               ///< 0 = any free one
-  std::size_t threads = 128;  ///< requests served at once; beyond them only probes are answered, all else gets 503
-  std::size_t perClient = 96; ///< of these for one client's address; beyond them it gets 429
+  int port = 0;              ///< 0 = any free one
+  std::size_t threads = 128; ///< requests served at once; beyond them only probes are answered, all else gets 503
+  std::size_t perClient = 0; ///< of these for one client; beyond them it gets 429. 0 = its share (fair_shares.h)
 };
 
 /// "http://127.0.0.1:8080".

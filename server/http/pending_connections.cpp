@@ -1,6 +1,5 @@
 #include "server/http/pending_connections.h"
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <exception>
@@ -13,14 +12,14 @@
 
 #include "server/http/reply.h"
 #include "server/http/socket_io.h"
+#include "server/http/unserved_reply.h"
 #include "server/system/log.h"
 
 namespace gnomon {
 namespace {
 
-constexpr std::chrono::milliseconds kLastLinger{500}; ///< once the server ends
-constexpr std::size_t kMostUnseen = 32;               ///< connections that the watching thread has not seen yet
-constexpr std::chrono::seconds kLongestUnseen{1};     ///< that a new one waits for it at most
+constexpr std::size_t kMostUnseen = 32;           ///< connections that the watching thread has not seen yet
+constexpr std::chrono::seconds kLongestUnseen{1}; ///< that a new one waits for it at most
 
 Problem noPlace(bool clientHasItsShare) {
   if (clientHasItsShare) {
@@ -32,7 +31,11 @@ Problem noPlace(bool clientHasItsShare) {
 } // namespace
 
 PendingConnections::PendingConnections(ConnectionContext& context, std::size_t threads, std::size_t perClient)
-    : context_(context), shares_(perClient), pool_(threads), thread_([this] { watch(); }) {}
+    : context_(context),
+      shares_(threads, perClient),
+      pool_(threads),
+      waiting_(context, [this](OpenConnection connection) { adopt(std::move(connection)); }),
+      thread_([this] { watch(); }) {}
 
 void PendingConnections::finish() {
   finishing_ = true;
@@ -61,20 +64,13 @@ void PendingConnections::makeRoom() noexcept {
   wake_.raise();
 }
 
-bool PendingConnections::isSettled() {
-  const std::lock_guard lock(mutex_);
-  const auto& connections = connections_.all();
-  return adopted_.empty() && std::all_of(connections.begin(), connections.end(),
-                                         [](const auto& pending) { return pending.second.connection.ending; });
-}
-
 void PendingConnections::watch() {
-  constexpr std::chrono::milliseconds kRetry{2}; // while a head waits for a thread
+  constexpr std::chrono::milliseconds kRetry{2}; // while a head waits for a thread, or all is to end
   while (true) {
     try {
       if (isOver()) return;
-      for (const auto& [fd, isLost] :
-           connections_.wait(ready_.empty() ? Clock::time_point::max() : Clock::now() + kRetry)) {
+      const bool isSoon = !ready_.empty() || finishing_;
+      for (const auto& [fd, isLost] : connections_.wait(isSoon ? Clock::now() + kRetry : Clock::time_point::max())) {
         onReadable(fd, isLost);
       }
       placeReady();
@@ -84,21 +80,6 @@ void PendingConnections::watch() {
       logEvent("connection", error.what()); // out of memory: the connection that met it is dropped at its deadline
     }
   }
-}
-
-/// Finishing goes in order: heads, the threads that answer them, what these hand back.
-bool PendingConnections::isOver() {
-  takeAdopted();
-  if (!finishing_) return false;
-  dropIdle();
-  if (context_.cutBodies.raised()) refuseWaiting();
-  if (!isDrained_ && isSettled()) {
-    pool_.shutdown();
-    isDrained_ = true;
-    takeAdopted();
-    dropIdle();
-  }
-  return isDrained_ && connections_.all().empty();
 }
 
 void PendingConnections::takeAdopted() {
@@ -113,6 +94,14 @@ void PendingConnections::takeAdopted() {
     PendingConnection* const pending = connections_.admit(std::move(connection));
     if (pending == nullptr) continue;
     const OpenConnection& own = pending->connection;
+    if (own.held) {
+      pending->isReady = true;
+      pending->client = {own.held->record.client, own.held->holder.client};
+      pending->deadline = Clock::time_point::max(); // its beginning may be sent: nothing else can be said
+      connections_.stopReading(*pending);
+      ready_.push_back(own.socket.get());
+      continue;
+    }
     connections_.setDeadline(*pending, own.ending          ? context_.limits.linger
                                        : own.requests == 0 ? context_.limits.firstByte
                                                            : context_.limits.idle);
@@ -125,7 +114,7 @@ void PendingConnections::onReadable(int fd, bool lost) {
   PendingConnection* const pending = connections_.find(fd);
   if (pending == nullptr) return;
   if (pending->isReady) { // its body waits in the socket
-    if (lost) connections_.drop(fd);
+    if (lost) lose(fd, Delivery::clientLeft);
     return;
   }
   OpenConnection& connection = pending->connection;
@@ -175,33 +164,52 @@ void PendingConnections::checkHead(PendingConnection& pending, bool headBegins) 
 
 /// Gives a thread to each complete head, or an answer to those that have waited for one in vain.
 void PendingConnections::placeReady() {
+  if (!isLacking_) noteThreads();
+  isLacking_ = false;
   std::vector<int> still;
   for (const int fd : std::exchange(ready_, {})) {
     PendingConnection* const pending = connections_.find(fd);
     if (pending == nullptr || !pending->isReady) continue;
     const Place where = place(fd, *pending);
     if (where == Place::taken) continue;
+    isLacking_ = isLacking_ || where == Place::noThread;
     if (!pending->isWaiting || Clock::now() >= pending->deadline) answer(*pending, where);
     if (pending->isReady) still.push_back(fd);
   }
   ready_ = std::move(still);
+  noteThreads();
+}
+
+/// Since when a request that comes finds no thread, for probes.
+void PendingConnections::noteThreads() {
+  if (!isLacking_ && pool_.hasIdle()) {
+    context_.lackingThreads.end();
+  } else {
+    context_.lackingThreads.begin();
+  }
 }
 
 PendingConnections::Place PendingConnections::place(int fd, const PendingConnection& pending) {
-  const std::string network = pending.client.identity.name;
+  const ClientIdentity client = pending.client.identity;
   if (!pool_.hasIdle()) return Place::noThread;
-  if (!shares_.take(network)) return Place::noShare;
+  if (!shares_.take(client)) return Place::noShare;
   const auto connection = std::make_shared<OpenConnection>(connections_.release(fd));
-  pool_.tryRun([this, connection, network] {
+  pool_.tryRun([this, connection, client] {
     auto kept = serveConnection(std::move(*connection), context_, [this] { return pool_.hasIdle(); });
-    shares_.giveBack(network);
-    if (kept) adopt(*std::move(kept));
+    shares_.giveBack(client);
+    if (!kept) return;
+    if (kept->held) {
+      waiting_.adopt(*std::move(kept));
+    } else {
+      adopt(*std::move(kept));
+    }
   });
   return Place::taken;
 }
 
 /// For a head that found no thread: probes are answered, others go on waiting, and are refused when they are late.
 void PendingConnections::answer(PendingConnection& pending, Place why) {
+  if (pending.connection.held) return;
   const std::string& received = pending.connection.received;
   const auto refusal = Clock::now() >= pending.deadline ? std::optional(noPlace(why == Place::noShare)) : std::nullopt;
   auto unserved = replyToUnserved(context_.service,
@@ -235,51 +243,6 @@ void PendingConnections::sendLast(PendingConnection& pending, RequestRecord& rec
   pending.isReady = false;
   connections_.resumeReading(pending);
   connections_.setDeadline(pending, context_.limits.linger);
-}
-
-void PendingConnections::refuseLate() {
-  for (PendingConnection* const pending : connections_.takeExpired()) {
-    refuse(*pending, {ProblemCode::deadlineExceeded, "", "The request line and headers arrived too slowly.", "", ""});
-  }
-}
-
-/// The server ends: connections without a request are closed, and those with their reply get little time to take it.
-void PendingConnections::dropIdle() {
-  auto& connections = connections_.all();
-  std::erase_if(connections, [](const auto& pending) {
-    return !pending.second.connection.ending && pending.second.connection.isSilent();
-  });
-  for (auto& [fd, pending] : connections) {
-    if (pending.connection.ending) connections_.shortenDeadline(pending, kLastLinger);
-  }
-}
-
-/// The server does not wait for them any longer.
-void PendingConnections::refuseWaiting() {
-  for (auto& [fd, pending] : connections_.all()) {
-    if (pending.connection.ending) continue;
-    refuse(pending, {ProblemCode::unavailable, "", "The server is shutting down.", "", ""});
-    connections_.shortenDeadline(pending, kLastLinger);
-  }
-}
-
-/// Makes room for one. The chosen one is read first: its whole head may have come in this moment.
-void PendingConnections::dropOne() {
-  while (const auto chosen = connections_.evictionCandidate()) {
-    onReadable(*chosen, false);
-    const PendingConnection* const pending = connections_.find(*chosen);
-    if (pending == nullptr) return;
-    if (!pending->isReady) {
-      connections_.drop(*chosen);
-      return;
-    }
-  }
-  if (const auto chosen = connections_.newestReady()) {
-    PendingConnection& pending = *connections_.find(*chosen);
-    pending.deadline = Clock::now();
-    answer(pending, Place::noThread);
-    connections_.drop(*chosen);
-  }
 }
 
 } // namespace gnomon

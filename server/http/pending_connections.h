@@ -9,18 +9,21 @@
 #include "server/http/connection.h"
 #include "server/http/connection_set.h"
 #include "server/http/request_log.h"
+#include "server/http/waiting_replies.h"
 #include "server/http/worker_pool.h"
+#include "server/system/fair_shares.h"
 
 namespace gnomon {
 
 /// Holds every connection that has no request to serve: new ones, idle ones, slow ones whose head is still coming, and
 /// those that only wait to be closed. One thread watches them all, so that an idle client holds up no other, and gives
-/// each complete head to a thread of its own. Where none is free, it answers itself: probes as ever, anything else with
-/// 503, and with 429 where this client alone takes too many.
+/// each complete head, and each reply that goes on, to a thread of its own. Where none is free, it answers itself:
+/// probes as ever, anything else with 503, and with 429 where this client alone takes too many. Replies that wait are
+/// handed to another thread (WaitingReplies).
 class PendingConnections {
  public:
-  /// `threads` serve requests, at most `perClient` of them for one client. Throws std::system_error where the system
-  /// refuses a thread.
+  /// `threads` serve requests, at most `perClient` of them for one client; 0 = its share of them (FairShares). Throws
+  /// std::system_error where the system refuses a thread.
   PendingConnections(ConnectionContext& context, std::size_t threads, std::size_t perClient);
   ~PendingConnections() { finish(); }
 
@@ -54,6 +57,8 @@ class PendingConnections {
   void placeReady();
   Place place(int fd, const PendingConnection& pending);
   void answer(PendingConnection& pending, Place why);
+  void lose(int fd, Delivery how);
+  void noteThreads();
   void refuse(PendingConnection& pending, Problem problem);
   void sendLast(PendingConnection& pending, RequestRecord& record, HttpReply reply, bool bodyless);
   void refuseLate();
@@ -62,7 +67,7 @@ class PendingConnections {
   void dropOne();
 
   ConnectionContext& context_;
-  ClientShares shares_;
+  FairShares shares_;
   StopSignal wake_;
   std::atomic<bool> finishing_ = false;
   std::atomic<bool> roomWanted_ = false;
@@ -73,7 +78,9 @@ class PendingConnections {
   ConnectionSet connections_{wake_};
   std::vector<int> ready_; ///< descriptors of connections that wait for a thread, in order
   bool isDrained_ = false; ///< finishing, and no thread serves any longer
+  bool isLacking_ = false; ///< some of `ready_` found no thread
   WorkerPool pool_;
+  WaitingReplies waiting_;
   std::thread thread_;
 };
 

@@ -74,13 +74,39 @@ struct StreamResult {
   RefusalReason refusal = RefusalReason::none;
 };
 
+/// What a reply waits for, as for news of a job, while it holds no thread. One thread looks after all such replies, so
+/// that nothing here may block.
+class ReplyWait {
+ public:
+  enum class Next {
+    wait,  ///< nothing else
+    end,   ///< the stream is over
+    thread ///< the reply goes on with a thread
+  };
+  struct News {
+    std::string text{}; ///< of a stream: a few kilobytes
+    Next next = Next::wait;
+  };
+
+  virtual ~ReplyWait() = default;
+
+  /// What there is to send since the last call. It is called again and again until there is a next step.
+  virtual News look() = 0;
+
+  /// Sent of a stream after some seconds without anything else, so that proxies keep the connection open.
+  virtual std::string_view heartbeat() const { return {}; }
+};
+
 /// One reply. Content-Length, Connection, X-Request-ID, Date and the safety headers are added when it is sent.
 struct HttpReply {
   int status = 200;
   std::string contentType; ///< empty = no body
   SharedBytes body;
-  /// Instead of `body`: makes it while it is sent, on the connection's thread. The end of the connection marks its end.
-  std::function<void(const BodySink&)> stream;
+  /// Instead of `body`: makes it while it is sent, on a thread of the connection's. The end of the connection marks its
+  /// end. nullptr: it is made. Else the rest waits, and it may be called again afterwards.
+  std::function<std::shared_ptr<ReplyWait>(const BodySink&)> stream;
+  std::shared_ptr<ReplyWait> wait;              ///< instead of all else: `later` gives the reply, once this is over
+  std::function<HttpReply()> later;             ///< headers and key of the reply that waits are added to it
   std::shared_ptr<const StreamResult> streamed; ///< of `stream`; nullptr = nothing is known of it
   std::vector<std::pair<std::string, std::string>> headers;
   bool bodyOmitted = false;      ///< HEAD whose body was not made: no Content-Length is sent

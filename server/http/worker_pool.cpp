@@ -23,6 +23,11 @@ bool WorkerPool::hasIdle() {
   return !stopping_ && !idle_.empty();
 }
 
+bool WorkerPool::isBusy() {
+  const std::lock_guard lock(mutex_);
+  return idle_.size() < workers_.size();
+}
+
 bool WorkerPool::tryRun(const std::function<void()>& task) {
   const std::lock_guard lock(mutex_);
   if (stopping_ || idle_.empty()) return false;

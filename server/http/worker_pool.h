@@ -21,6 +21,9 @@ class WorkerPool {
   /// Whether a task would run. It stays true until the next tryRun() or shutdown().
   bool hasIdle();
 
+  /// Whether a task runs, or will.
+  bool isBusy();
+
   /// False, and the task does not run, where every thread is busy. Tasks must not throw.
   bool tryRun(const std::function<void()>& task);
 

@@ -17,6 +17,7 @@ constexpr std::size_t kPerWorker = 8;  ///< its channel and process, and those o
 constexpr std::size_t kPerJobFrame = 4; ///< as a request, without a connection
 constexpr std::size_t kLeastLeft = 64;
 constexpr std::size_t kMostConnections = 2'048;
+constexpr std::size_t kMostReplies = 1'024;
 constexpr std::size_t kMostScenes = 65'536;
 constexpr std::size_t kMostJobs = 256;
 
@@ -92,9 +93,10 @@ Result<DescriptorPlan> planDescriptors(std::size_t descriptors, const Descriptor
                    std::to_string(least), std::to_string(descriptors)};
   }
   const std::size_t jobs = std::min((descriptors - atWork) / 8, kMostJobs);
-  const std::size_t left = descriptors - atWork - jobs;
+  const std::size_t replies = std::min((descriptors - atWork) / 8, kMostReplies);
+  const std::size_t left = descriptors - atWork - jobs - replies;
   const std::size_t scenes = use.keepsScenesInMemory ? std::min(left / 2, kMostScenes) : 0;
-  return DescriptorPlan{std::min(left - scenes, kMostConnections), scenes, jobs};
+  return DescriptorPlan{std::min(left - scenes, kMostConnections), replies, scenes, jobs};
 }
 
 } // namespace gnomon

@@ -26,6 +26,7 @@ std::uint64_t vdbReaderBytes(std::uint64_t workerBytes);
 /// What the descriptors that the system grants a process are for.
 struct DescriptorPlan {
   std::size_t waitingConnections = 0; ///< those that have no request to serve (ConnectionLimits::maxWaiting)
+  std::size_t waitingReplies = 0;     ///< connections whose replies wait for news of a job
   std::size_t scenesInMemory = 0;     ///< each is a file in memory; 0 where a directory keeps them
   std::size_t jobs = 0;               ///< each has a file for its pictures
 };

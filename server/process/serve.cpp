@@ -235,6 +235,7 @@ int serve(const ServeOptions& options, std::vector<StaticFile> page) {
                     .replyBytes = replyBytes,
                     .jobs = **jobs,
                     .jobLimits = jobLimits,
+                    .waits = FairShares(descriptors->waitingReplies),
                     .limits = limits,
                     .requestTimeout = std::chrono::seconds(options.requestTimeoutSeconds),
                     .evaluationTimeout = std::chrono::seconds(options.evaluationTimeoutSeconds),
@@ -264,10 +265,9 @@ int serve(const ServeOptions& options, std::vector<StaticFile> page) {
       &counted};
   services.cut = &context.cutBodies;
   services.metrics = [&] { return metrics::metricsText(counted, snapshotOf(options, services, context)); };
-  const std::size_t perClient = options.maxConnectionsPerAddress > 0
-                                    ? options.maxConnectionsPerAddress
-                                    : std::max<std::size_t>(options.httpThreads * 3 / 4, 1);
-  auto server = HttpServer::listen({options.bind, options.port, options.httpThreads, perClient}, context);
+  services.lackingThreads = &context.lackingThreads;
+  auto server =
+      HttpServer::listen({options.bind, options.port, options.httpThreads, options.maxConnectionsPerAddress}, context);
   if (!server) return failed(server.problems());
   std::unique_ptr<AdminAddress> admin;
   if (options.adminPort) {

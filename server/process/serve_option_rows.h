@@ -134,12 +134,13 @@ inline constexpr std::array kLimitRows{
     option("reply-cache-bytes", &ServeOptions::replyCacheBytes, kSize,
            "Pictures kept for equal requests without report, the least recently used dropped first; 0 = all are drawn"),
     option("queue-limit", &ServeOptions::queueLimit, {.range = {1, 100'000}},
-           "Requests that may wait for a worker; 429 beyond it, for the newest of the client with most of them"),
+           "Requests that may wait for a worker, of one client its [share](#load); 429 beyond it, for the newest of the "
+           "client with most of them"),
     option("http-threads", &ServeOptions::httpThreads, {.range = {1, 4'096}},
-           "Requests served at once, one thread each; beyond it 503, except for probes. Idle connections take none"),
+           "Requests served at once, one thread each; beyond it 503, except for probes. What only waits takes none"),
     option("max-connections-per-address", &ServeOptions::maxConnectionsPerAddress, {.range = {0, 4'096}},
-           "Of these, requests of one client's address (of IPv6 its first 64 bits); beyond it 429. 0 = three quarters. "
-           "Raise it behind a proxy that is not [trusted](#proxies): all clients have its address"),
+           "Of these, requests of one client's address (of IPv6 its first 64 bits); beyond it 429. 0 = its "
+           "[share](#load). Set it behind a proxy that is not [trusted](#proxies): all clients have its address"),
     option("max-evaluations", &ServeOptions::maxEvaluations, {.range = {1, 64}},
            "Evaluations that may run at once, 429 beyond it; measured times are most accurate with 1"),
     option("max-sequences", &ServeOptions::maxSequences, {.range = {1, 64}},
@@ -153,7 +154,7 @@ inline constexpr std::array kJobRows{
     option("job-frames", &ServeOptions::jobFrames, {.range = {0, 512}},
            "Frames of jobs that are drawn at once; 0 = as many as there are workers"),
     option("max-jobs", &ServeOptions::jobsPerClient, {.range = {1, 256}},
-           "Jobs that are kept for one client, whatever their state; 429 beyond it"),
+           "Jobs that are kept for one client, whatever their state; 429 beyond it, and beyond its [share](#load) of all"),
     option("job-bytes", &ServeOptions::jobBytes, kSize,
            "Requests and pictures of all jobs, kept in Redis, the directory of `--store` or memory; 507 beyond it"),
     option("job-age", &ServeOptions::jobAgeSeconds, {kSeconds, {1, kLongestAge}},

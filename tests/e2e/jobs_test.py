@@ -284,6 +284,27 @@ class Shared(unittest.TestCase):
             time.sleep(0.01)
         self.assertEqual(second.ask("DELETE", job["address"]).status, 204)
 
+    def test_the_frames_of_a_server_that_is_killed_go_on_within_three_seconds(self):
+        first, second = self.servers  # each has one frame in hand, and each job only one that may be drawn
+        jobs = [ask_for(first, self.scene, LONG).json()["address"] for _ in range(4)]
+        done = {job: 0 for job in jobs}
+        while min(done.values()) == 0:
+            done = {job: second.get(job).json()["done"] for job in jobs}
+        first.process.kill()
+        first.process.wait()
+        begin = time.monotonic()
+        changed = dict.fromkeys(jobs, begin)
+        longest = 0.0
+        while time.monotonic() < begin + 8:
+            for job in jobs:
+                reply, now = second.get(job).json(), time.monotonic()
+                if reply["done"] > done[job] or reply["state"] == "done":
+                    longest = max(longest, now - changed[job])
+                    done[job], changed[job] = reply["done"], now
+        longest = max(longest, *(time.monotonic() - each for each in changed.values()))
+        self.assertLess(longest, 3 * SLOW)
+        self.assertGreater(longest, 1, "none of them was in the hands of the killed one: this shows nothing")
+
     def test_while_redis_is_away_jobs_are_asked_for_again_later(self):
         server = self.servers[0]
         job = ask_for(server, self.scene, orbit(3)).json()

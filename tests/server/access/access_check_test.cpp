@@ -117,7 +117,7 @@ TEST(AccessCheck, AStreamIsInProgressUntilItIsSent) {
     handler.scope = Scope::read;
     handler.answer = [](HttpRequest, const std::function<bool()>&) {
       HttpReply reply;
-      reply.stream = [](const BodySink&) {};
+      reply.stream = [](const BodySink&) { return nullptr; };
       return reply;
     };
     return handler;

@@ -26,7 +26,7 @@ inline HttpReply echo(const HttpRequest& request) {
   HttpReply reply;
   reply.contentType = "text/plain";
   if (request.path == std::vector<std::string>{"stream"}) {
-    reply.stream = [](const BodySink& sink) {
+    reply.stream = [](const BodySink& sink) -> std::shared_ptr<ReplyWait> {
       for (int i = 0; i < 3 && sink("piece "); ++i) {
       }
       throw std::runtime_error("secret");

@@ -63,6 +63,7 @@ TEST_F(ConnectionTest, AStreamLearnsThatItsClientIsGone) {
         while (sink(std::string(4096, 'x'))) {
         }
         told = !sink("more");
+        return nullptr;
       };
       return reply;
     };

@@ -57,9 +57,11 @@ TEST(DescriptorPlan, WhatIsAtWorkAndWhatWaitsNeverNeedMoreThanThereAre) {
       use.keepsScenesInMemory = inMemory;
       const auto plan = planDescriptors(descriptors, use);
       ASSERT_TRUE(plan) << descriptors;
-      EXPECT_LT(plan->waitingConnections + plan->scenesInMemory + plan->jobs + 128 * 5 + kAdminThreads + kAdminWaiting,
+      EXPECT_LT(plan->waitingConnections + plan->waitingReplies + plan->scenesInMemory + plan->jobs + 128 * 5 +
+                    kAdminThreads + kAdminWaiting,
                 descriptors);
       EXPECT_GE(plan->waitingConnections, 32u);
+      EXPECT_GE(plan->waitingReplies, 16u);
       EXPECT_GE(plan->jobs, 16u);
       EXPECT_EQ(plan->scenesInMemory > 0, inMemory);
     }
