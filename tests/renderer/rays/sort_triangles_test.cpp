@@ -82,5 +82,58 @@ TEST(SortTriangles, InstancesThatRoundBadlyAreSortedApart) {
   }
 }
 
+const glm::dvec3 kSlope = glm::normalize(glm::dvec3(0, 1, -1));
+
+/// Balls in a corner of a slope of `size` metres, beside which they may be too small for floats to know their shape.
+GlbBuilder ballsBeside(float size) {
+  GlbBuilder builder;
+  testing::addQuad(builder, {{0, 0, 0}, {0, size, size}, {size, size, size}, {size, 0, 0}});
+  for (int i = 0; i < 40; ++i) testing::addSphere(builder, {0.1 * i, 0.5, 0}, 0.4, 16);
+  return builder;
+}
+
+TEST(SortTriangles, WhatIsAPointBesideTheSceneIsLeftOut) {
+  for (const float size : {1e2f, 1e6f, 1e8f, 1.9e9f}) {
+    Traced traced(ballsBeside(size));
+    traced.camera = testing::parallelView(traced.anchor() + kSlope * double{size}, -kSlope, 0.5 * size, 2.0 * size);
+    traced.lights = {testing::sunAlong(-kSlope)};
+    for (const SurfacePoint& point : traced.surface()) EXPECT_EQ(point.instance, 0u) << size;
+    const std::vector<float> shares = lightVisibility(traced.input(), 0, traced.surface(), 1);
+    EXPECT_EQ(std::ranges::count(shares, 1.0f), std::ptrdiff_t(shares.size())) << size;
+  }
+}
+
+TEST(SortTriangles, AMeshThatIsPointsInPartKeepsItsOthersInTheirPlaces) {
+  GlbBuilder builder = ballsBeside(4);
+  for (int i = 0; i < 40; ++i) { // so that the triangles are many
+    testing::addGrid(builder, 16, [&](double x, double z) {
+      return x == 1 ? glm::dvec3(1.5e9, 7e8 * (z + 1), 7e8 * (z + 1)) : glm::dvec3(0.1 * i, 0.1 * x, 0.1 * z);
+    });
+  }
+  Traced traced(builder);
+  EXPECT_FALSE(traced.scene.tree().indices.empty());
+  traced.camera = testing::parallelView(traced.anchor() + kSlope * 1e9, -kSlope, 1e9, 1e10);
+  int hits = 0;
+  for (const SurfacePoint& point : traced.surface()) {
+    if (point.instance == kNoSurface) continue;
+    ++hits;
+    const Triangle triangle = traced.scene.tree().triangle(point.instance, point.triangle);
+    EXPECT_GT(triangle.largest().x, 7e8) << "one of those that reach so far";
+  }
+  EXPECT_GT(hits, 0);
+}
+
+TEST(SortTriangles, ARayThatBeginsWhereFloatsEndMeetsNothing) {
+  GlbBuilder builder;
+  testing::addSquare(builder, 1e-9f, 0);
+  Traced traced(builder);
+  const TracedLight light(traced.input(), 0);
+  const std::vector<glm::dvec3> places{{0, 1e12, 0}, {HUGE_VAL, 0, 0}, {0, -1e-9, 0}};
+  std::vector<float> shares(places.size());
+  light.airVisibility(places, shares);
+  EXPECT_EQ(shares[0], 1);
+  EXPECT_EQ(shares[1], 1);
+}
+
 } // namespace
 } // namespace gnomon
