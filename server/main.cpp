@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -12,6 +13,7 @@
 #include "server/process/resource_plan.h"
 #include "server/process/serve.h"
 #include "server/process/serve_flags.h"
+#include "server/process/serve_inputs.h"
 #include "server/system/file_descriptor.h"
 #include "server/system/memory_limit.h"
 #include "server/worker/sandbox.h"
@@ -31,18 +33,29 @@ std::vector<std::string> knownVariables(const CLI::App& app) {
   return known;
 }
 
+/// Adds faults of options, each with its line where the file has set one of them. Options that have faults of their own
+/// are passed over.
+void addFaults(const std::vector<OptionFault>& found, const AppliedConfig& applied, std::vector<std::string>& faults) {
+  for (const OptionFault& fault : found) {
+    const auto& names = fault.options;
+    if (std::any_of(names.begin(), names.end(), [&](auto name) { return applied.faulty.contains(name); })) continue;
+    const auto inFile =
+        std::find_if(names.begin(), names.end(), [&](auto name) { return applied.places.contains(name); });
+    faults.push_back((inFile == names.end() ? "" : applied.places.find(*inFile)->second + ": ") + fault.detail);
+  }
+}
+
 /// Serves with the options of the command line, the environment and the file that they name.
 int serveAsAsked(const CLI::App& app, CLI::App& command, const ConfigChoice& config, const ServeOptions& options) {
-  const auto unknown = unknownVariables(ownEnvironment(), knownVariables(app));
-  for (const std::string& fault : unknown) std::fprintf(stderr, "gnomon: %s\n", fault.c_str());
-  if (!unknown.empty()) return cli::kExitUsage;
-  const Status applied = config.file.empty() ? Status(Done{}) : applyConfig(command, config.file);
-  if (!applied) {
-    for (const Problem& problem : applied.problems()) {
-      std::fprintf(stderr, "gnomon: %s: %s\n", problem.pointer.c_str(), problem.detail.c_str());
-    }
-    return cli::kExitUsage;
-  }
+  std::vector<std::string> faults = unknownVariables(ownEnvironment(), knownVariables(app));
+  const AppliedConfig applied = config.file.empty() ? AppliedConfig() : applyConfig(command, config.file);
+  faults.insert(faults.end(), applied.faults.begin(), applied.faults.end());
+  std::vector<OptionFault> found = conflictsOf(options);
+  ServeInputs inputs;
+  if (!config.print) inputs = readInputs(options, found);
+  addFaults(found, applied, faults);
+  for (const std::string& fault : faults) std::fprintf(stderr, "gnomon: %s\n", fault.c_str());
+  if (!faults.empty()) return cli::kExitUsage;
   if (config.print) {
     std::fputs(configOf(command).c_str(), stdout);
     return std::fflush(stdout) == 0 ? cli::kExitOk : cli::kExitProblem;
@@ -50,7 +63,7 @@ int serveAsAsked(const CLI::App& app, CLI::App& command, const ConfigChoice& con
   ::prctl(PR_SET_DUMPABLE, 0); // its memory, environment and files are no other process's, one of the same user least
   std::vector<StaticFile> page;
   for (const WebFile& file : webFiles()) page.push_back({file.path, file.contentType, file.bytes});
-  return serve(options, std::move(page));
+  return serve(options, std::move(inputs), std::move(page));
 }
 
 cli::Subcommand addServeCommand(CLI::App& app) {
@@ -78,7 +91,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "gnomon " GNOMON_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 success, 1 a problem (described on standard error), 2 a wrong command line.\n"
+      "Exit codes: 0 success, 1 a problem (described on standard error), 2 wrong options, wherever they are from.\n"
       "gnomon COMMAND --help lists the options of a command.");
   std::vector<cli::Subcommand> commands{addServeCommand(app), addWorkerCommand(app)};
   for (cli::Subcommand& command : cli::addClientCommands(app)) commands.push_back(std::move(command));

@@ -1,6 +1,7 @@
 #include "protocol/base/config_text.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 
 #include "protocol/base/text.h"
@@ -24,14 +25,17 @@ class ConfigReader {
     if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
   }
 
-  Result<std::vector<ConfigSection>> read() {
-    while (at_ < text_.size() && problems_.size() < kMostProblems) {
+  ConfigText read() {
+    while (at_ < text_.size() && read_.problems.size() < kMostProblems) {
       skipSpaces();
-      if (!atLineEnd()) text_[at_] == '[' ? readName() : readEntry();
+      if (!atLineEnd() && text_[at_] != '[') {
+        readEntry();
+      } else if (!atLineEnd() && !readName()) {
+        read_.sections.push_back({line_, {}, {}}); // its keys are not those of the section before it
+      }
       skipLine();
     }
-    if (!problems_.empty()) return std::move(problems_);
-    return std::move(sections_);
+    return std::move(read_);
   }
 
  private:
@@ -56,7 +60,7 @@ class ConfigReader {
   }
 
   bool fail(std::string detail) {
-    problems_.push_back(invalidValue(std::string(file_) + ":" + std::to_string(line_), std::move(detail)));
+    read_.problems.push_back(invalidValue(std::string(file_) + ":" + std::to_string(line_), std::move(detail)));
     return false;
   }
 
@@ -70,12 +74,13 @@ class ConfigReader {
     at_ = end + 1;
     skipSpaces();
     if (!atLineEnd()) return fail("Something follows the name of the section.");
+    auto& sections = read_.sections;
     const auto known =
-        std::find_if(sections_.begin(), sections_.end(), [&](const ConfigSection& each) { return each.name == name; });
-    if (known != sections_.end()) {
+        std::find_if(sections.begin(), sections.end(), [&](const ConfigSection& each) { return each.name == name; });
+    if (known != sections.end()) {
       return fail("The section " + name + " begins twice; first in line " + std::to_string(known->line) + ".");
     }
-    sections_.push_back({line_, name, {}});
+    sections.push_back({line_, name, {}});
     return true;
   }
 
@@ -98,7 +103,7 @@ class ConfigReader {
     }
     skipSpaces();
     if (!atLineEnd()) return fail("Something follows the value of " + key + ". Texts with spaces need quotes.");
-    auto& entries = sections_.back().entries;
+    auto& entries = read_.sections.back().entries;
     const auto known =
         std::find_if(entries.begin(), entries.end(), [&](const ConfigEntry& each) { return each.key == key; });
     if (known != entries.end()) return fail(key + " is set twice; first in line " + std::to_string(known->line) + ".");
@@ -165,29 +170,29 @@ class ConfigReader {
   std::string_view file_;
   std::size_t at_ = 0;
   int line_ = 1;
-  std::vector<ConfigSection> sections_{1};
-  Problems problems_;
+  ConfigText read_;
 };
 
 } // namespace
 
-Result<std::vector<ConfigSection>> parseSections(std::string_view text, std::string_view file) {
-  if (!isUtf8(text) || text.find('\0') != std::string_view::npos) {
-    return invalidValue(std::string(file), "This is no text in UTF-8.");
-  }
-  return ConfigReader(text, file).read();
+ConfigText parseSections(std::string_view text, std::string_view file) {
+  if (isUtf8(text) && text.find('\0') == std::string_view::npos) return ConfigReader(text, file).read();
+  ConfigText nothing;
+  nothing.problems.push_back(invalidValue(std::string(file), "This is no text in UTF-8."));
+  return nothing;
 }
 
-Result<std::vector<ConfigEntry>> parseConfig(std::string_view text, std::string_view file) {
-  auto sections = parseSections(text, file);
-  if (!sections) return sections.problems();
-  if (sections->size() == 1) return std::move(sections->front().entries);
-  Problems problems;
-  for (const ConfigSection& section : std::span(*sections).subspan(1)) {
-    problems.push_back(invalidValue(std::string(file) + ":" + std::to_string(section.line),
-                                    "There are no sections here: every line is KEY = VALUE."));
+ConfigEntries parseConfig(std::string_view text, std::string_view file) {
+  ConfigText read = parseSections(text, file);
+  ConfigEntries all{{}, std::move(read.problems)};
+  for (ConfigSection& section : read.sections) {
+    if (section.line > 0) {
+      all.problems.push_back(invalidValue(std::string(file) + ":" + std::to_string(section.line),
+                                          "There are no sections here: every line is KEY = VALUE."));
+    }
+    std::move(section.entries.begin(), section.entries.end(), std::back_inserter(all.entries));
   }
-  return problems;
+  return all;
 }
 
 std::string configValue(std::string_view value) {

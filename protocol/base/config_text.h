@@ -25,14 +25,23 @@ struct ConfigSection {
   std::vector<ConfigEntry> entries;
 };
 
-/// The entries of a file without sections, each key once. A value is a "text" with the escapes \" \\ \n \t, a 'text'
-/// without any, a bare word (a number, true, 512MB), or a list of those in brackets, which may take several lines. #
-/// begins a comment. Problems: one for each line that is none of these, with the place "FILE:LINE" as its pointer.
-Result<std::vector<ConfigEntry>> parseConfig(std::string_view text, std::string_view file);
+/// What a text has, beside the lines that are wrong. A problem's pointer is the place, "FILE:LINE".
+struct ConfigText {
+  std::vector<ConfigSection> sections{1}; ///< the one without a name first, each name once
+  Problems problems{};
+};
+struct ConfigEntries {
+  std::vector<ConfigEntry> entries{};
+  Problems problems{};
+};
 
-/// The sections of a file, the one without a name first, each name once; in a section each key once. A name is keys
-/// with dots between. Problems: as above.
-Result<std::vector<ConfigSection>> parseSections(std::string_view text, std::string_view file);
+/// The sections of a file; in a section each key once. A name is keys with dots between. A value is a "text" with the
+/// escapes \" \\ \n \t, a 'text' without any, a bare word (a number, true, 512MB), or a list of those in brackets,
+/// which may take several lines. # begins a comment. Problems: one for each line that is none of these, up to 20.
+ConfigText parseSections(std::string_view text, std::string_view file);
+
+/// The entries of a file that is to have no sections: a problem for each that it has.
+ConfigEntries parseConfig(std::string_view text, std::string_view file);
 
 /// A value as parseConfig reads it back.
 std::string configValue(std::string_view value);

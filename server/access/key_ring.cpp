@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <system_error>
 #include <unistd.h>
 #include <utility>
 
@@ -23,15 +24,13 @@ Problem unreadable(std::string detail) {
   return {ProblemCode::invalidValue, "", std::move(detail), "", ""};
 }
 
-/// The whole file; says in the log where others may read it, too.
 Result<std::string> readKeyText(const std::string& path) {
   const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat about {};
-  if (!file || ::fstat(file.get(), &about) != 0) return unreadable("The key file can't be opened.");
-  if (!S_ISREG(about.st_mode)) return unreadable("The key file is no regular file.");
-  if ((about.st_mode & S_IROTH) != 0) {
-    logEvent("keys", "Every user of this machine may read the key file; chmod o-r takes that away.");
+  if (!file || ::fstat(file.get(), &about) != 0) {
+    return unreadable("The key file can't be opened: " + std::generic_category().message(errno) + ".");
   }
+  if (!S_ISREG(about.st_mode)) return unreadable("The key file is no regular file.");
   std::string text;
   std::array<char, 4096> piece;
   while (true) {
@@ -72,6 +71,15 @@ void KeyRing::reload() {
     keys_ = std::make_shared<const Keys>(*std::move(keys));
   }
   logEvent("keys", "The key file was read again; keys in it: " + count);
+  warnOfReaders();
+}
+
+void KeyRing::warnOfReaders() const {
+  struct stat about {};
+  if (::stat(file_.c_str(), &about) != 0 || (about.st_mode & S_IROTH) == 0) return;
+  logEvent("keys",
+           "Every user of this machine may read the key file. Give it to the server's user or group, and take it from "
+           "all others (chmod o-r); a service of systemd gets it by LoadCredential=.");
 }
 
 std::optional<AccessKey> KeyRing::withSecret(std::string_view secret) const {

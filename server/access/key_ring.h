@@ -16,13 +16,16 @@ namespace gnomon {
 /// The keys of a file, as they were when it was last read whole. Any thread.
 class KeyRing {
  public:
-  /// Reads the file. Its problems say which lines are wrong.
+  /// Reads the file. Its problems say which lines are wrong. Logs nothing.
   static Result<std::shared_ptr<KeyRing>> open(std::string file);
 
   explicit KeyRing(std::vector<AccessKey> keys) : keys_(std::make_shared<const Keys>(std::move(keys))) {}
 
   /// Reads the file again. Where it can't be read or is wrong, the keys stay, and the log says why.
   void reload();
+
+  /// Says in the log where every user of the machine may read the file.
+  void warnOfReaders() const;
 
   /// The key that has this secret; every key is looked at, whichever it is.
   std::optional<AccessKey> withSecret(std::string_view secret) const;

@@ -5,7 +5,6 @@
 #include <csignal>
 #include <cstdio>
 #include <fcntl.h>
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <thread>
@@ -14,8 +13,6 @@
 
 #include "renderer/core/parallel.h"
 #include "server/access/access_check.h"
-#include "server/access/key_ring.h"
-#include "server/handlers/drake_form.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/job_runners.h"
 #include "server/http/http_server.h"
@@ -23,6 +20,7 @@
 #include "server/metrics/request_metrics.h"
 #include "server/process/admin_address.h"
 #include "server/process/resource_plan.h"
+#include "server/process/serve_inputs.h"
 #include "server/process/service_manager.h"
 #include "server/process/signals.h"
 #include "server/process/stores.h"
@@ -43,28 +41,6 @@ int failed(const Problems& problems) {
     std::fprintf(stderr, "gnomon: %s%s\n", problem.detail.c_str(), actual.c_str());
   }
   return 1;
-}
-
-/// The spec for Drake's color pictures.
-Result<FrameSpec> drakeColors(const std::string& file) {
-  if (file.empty()) return drakeDefaults();
-  std::ifstream stream(file, std::ios::binary);
-  std::string text(kLimits.maxSpecBytes + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  const auto refused = [&](std::string detail, std::string actual) {
-    return Problem{ProblemCode::invalidValue, "drake-spec", std::move(detail), "", std::move(actual)};
-  };
-  if (text.empty()) return refused("The file of --drake-spec can't be read, or is empty.", file);
-  if (text.size() > kLimits.maxSpecBytes)
-    return refused("The file of --drake-spec is larger than a spec may be.", file);
-  auto spec = readDrakeSpec(text);
-  if (spec) return spec;
-  Problems problems;
-  for (const Problem& problem : spec.problems()) {
-    problems.push_back(refused("--drake-spec: " + problem.pointer + ": " + problem.detail, problem.actual));
-  }
-  return problems;
 }
 
 constexpr const char* kAbandoned = "Standard input was closed: the program that started the server has ended.";
@@ -180,33 +156,20 @@ KeepingPeriod keepingOf(const ServeOptions& options) {
 
 } // namespace
 
-int serve(const ServeOptions& options, std::vector<StaticFile> page) {
-  std::shared_ptr<KeyRing> keys;
-  const std::function<void()> reload = [&keys] {
+int serve(const ServeOptions& options, ServeInputs inputs, std::vector<StaticFile> page) {
+  const std::function<void()> reload = [&keys = inputs.keys] {
     tellReloading();
     if (keys) keys->reload();
-    tellReady("The keys were read again.");
+    if (!keys) logEvent("keys", "SIGHUP arrived; there are no keys (--keys) to be read again.");
+    tellReady(keys ? "The keys were read again." : "There are no keys to be read again.");
   };
   FileDescriptor starter(options.untilStdinCloses ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1) : -1);
   if (options.untilStdinCloses && !starter) {
     return failed({{ProblemCode::invalidValue, "until-stdin-closes",
                     "--until-stdin-closes needs a standard input, and it is closed already.", "", ""}});
   }
-  // A terminal that closes ends a server that has nothing to read again; a service manager means it otherwise.
-  Signals signals(options.keysFile.empty() && !hasServiceManager() ? nullptr : reload, std::move(starter));
-  if (!options.keysFile.empty()) {
-    auto opened = KeyRing::open(options.keysFile);
-    if (!opened) return failed(opened.problems());
-    keys = *std::move(opened);
-  }
-  if (!options.adminPort && options.adminBind != ServeOptions{}.adminBind) {
-    return failed({{ProblemCode::invalidValue, "admin-bind",
-                    "--admin-bind is an address of --admin-port, which is not set.", "", options.adminBind}});
-  }
-  auto colors = drakeColors(options.drakeSpecFile);
-  if (!colors) return failed(colors.problems());
-  auto trusted = ipNetworks(options.trustedProxies);
-  if (!trusted) return failed(trusted.problems());
+  Signals signals(reload, std::move(starter));
+  if (inputs.keys) inputs.keys->warnOfReaders();
   const auto descriptors =
       planDescriptors(raiseDescriptorLimit(), {.httpThreads = options.httpThreads,
                                                .workers = workersOf(options),
@@ -217,8 +180,8 @@ int serve(const ServeOptions& options, std::vector<StaticFile> page) {
   std::signal(SIGPIPE, SIG_IGN); // a log without a reader must not end the server
 
   Limits limits;
-  limits.maxSceneBytes = std::min(options.maxSceneBytes, options.uploadMemoryBytes);
-  const auto store = openStore(options, descriptors->scenesInMemory);
+  limits.maxSceneBytes = options.maxSceneBytes;
+  const auto store = openStore(options, inputs.store, descriptors->scenesInMemory);
   if (!store) return failed(store.problems());
   metrics::RequestMetrics counted;
   auto workers = Dispatcher::start(dispatcherOptions(options, store->lightMaps, counted));
@@ -228,12 +191,11 @@ int serve(const ServeOptions& options, std::vector<StaticFile> page) {
                             .jobsOfClient = options.jobsPerClient,
                             .bytes = options.jobBytes,
                             .age = std::chrono::seconds(options.jobAgeSeconds)};
-  auto jobs = openJobs(options, jobLimits, store->redis);
-  if (!jobs) return failed(jobs.problems());
+  const auto jobs = openJobs(options, jobLimits, inputs.jobs, store->redis);
   Services services{.store = *store->scenes,
                     .workers = **workers,
                     .replyBytes = replyBytes,
-                    .jobs = **jobs,
+                    .jobs = *jobs,
                     .jobLimits = jobLimits,
                     .waits = FairShares(descriptors->waitingReplies),
                     .limits = limits,
@@ -245,14 +207,14 @@ int serve(const ServeOptions& options, std::vector<StaticFile> page) {
                     .sequences = std::counting_semaphore<>(options.maxSequences),
                     .videoMemory = ByteBudget(options.videoMemoryBytes),
                     .replies = ReplyCache(options.replyCacheBytes),
-                    .drakeColors = *std::move(colors)};
+                    .drakeColors = std::move(inputs.drakeColors)};
   std::optional<StoreKeeping> keeping;
   if (!options.store.empty()) keeping.emplace(*store->scenes, **workers, keepingOf(options));
   ConnectionLimits connections;
   connections.idle = std::chrono::seconds(options.idleTimeoutSeconds);
   connections.maxWaiting = descriptors->waitingConnections;
   HttpService service = makeService(makeRoutes(services, options.adminPort ? Addresses::two : Addresses::one));
-  if (keys) service = withAccessCheck(std::move(service), keys);
+  if (inputs.keys) service = withAccessCheck(std::move(service), inputs.keys);
   ConnectionContext context{
       withOriginCheck(std::move(service), {options.allowedHosts, options.allowedOrigins, options.bind}),
       connections,
@@ -261,7 +223,7 @@ int serve(const ServeOptions& options, std::vector<StaticFile> page) {
       {},
       {},
       {},
-      *std::move(trusted),
+      std::move(inputs.trustedProxies),
       &counted};
   services.cut = &context.cutBodies;
   services.metrics = [&] { return metrics::metricsText(counted, snapshotOf(options, services, context)); };

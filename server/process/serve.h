@@ -76,11 +76,13 @@ struct ServeOptions {
   bool untilStdinCloses = false;
 };
 
-/// Serves, with this web page, until SIGTERM, SIGINT, or as untilStdinCloses has it, then ends in order: 0. Notifies a
-/// service manager how it is doing. A second signal ends at once. 1 = it could not start, or could not go on; the
-/// reason is on standard error. Once requests are accepted, the address is printed on standard output: "listening on
-/// http://127.0.0.1:8080". Call it before starting other threads: it blocks those two signals, and SIGHUP where there
-/// is a key file.
-int serve(const ServeOptions& options, std::vector<StaticFile> page);
+struct ServeInputs;
+
+/// Serves what serve_inputs.h has read by these options, with this web page, until SIGTERM, SIGINT, or as
+/// untilStdinCloses has it, then ends in order: 0. Notifies a service manager how it is doing. A second signal ends at
+/// once. 1 = it could not start, or could not go on; the reason is on standard error. Once requests are accepted, the
+/// address is printed on standard output: "listening on http://127.0.0.1:8080". SIGHUP reads the keys again, or, where
+/// there are none, changes nothing. Call it before starting other threads: it blocks these signals.
+int serve(const ServeOptions& options, ServeInputs inputs, std::vector<StaticFile> page);
 
 } // namespace gnomon

@@ -16,8 +16,6 @@
 namespace gnomon {
 namespace {
 
-const std::map<std::string, std::int64_t> kTimeUnits{{"s", 1}, {"m", 60}, {"h", 3'600}, {"d", 86'400}};
-
 /// What --help leaves out of Markdown: backquotes, and of a link everything but its text.
 const std::regex kMarkdown(R"(\[([^\]]*)\]\([^)]*\)|`)");
 
@@ -63,22 +61,17 @@ void addOption(CLI::App& command, std::string_view group, const OptionRow& row, 
   const auto add = [&](auto member) { return addValue(command, flag, options.*member, says); };
   CLI::Option& option = *std::visit(add, row.member);
   option.envname(variableOf(row.name))->group(std::string(group));
-  const auto& [value, range] = row.value;
-  if (!value.empty()) option.type_name(std::string(value));
-  if (value == kBytes) option.transform(CLI::AsSizeValue(false).description(""));
-  if (value == kSeconds) option.transform(CLI::AsNumberWithUnit(kTimeUnits).description(""));
-  if (std::isfinite(range.max)) {
-    option.check(CLI::Range(static_cast<std::int64_t>(range.min), static_cast<std::int64_t>(range.max)));
+  const OptionValue& value = row.value;
+  if (!value.name.empty()) option.type_name(std::string(value.name));
+  if (std::isfinite(value.range.max)) {
+    const auto toNumber = [&value](std::string& text) { return toPlainNumber(text, value); };
+    option.transform(CLI::Validator(toNumber, rangeText(value)));
   }
+  if (value.fault != nullptr)
+    option.check(CLI::Validator([&value](std::string& text) { return value.fault(text); }, ""));
 }
 
-/// Of an option the value that it was given, wherever; empty where it has none.
-std::string givenTo(const CLI::App& command, const char* flag) {
-  const CLI::Option& option = *command.get_option(flag);
-  return option.count() > 0 ? option.reduced_results().back() : std::string();
-}
-
-constexpr std::size_t kMostBytes = 1 << 20;
+constexpr std::size_t kMostText = 1 << 20; ///< bytes of a configuration file
 
 std::vector<std::string> keysOf(const CLI::App& command) {
   std::vector<std::string> keys;
@@ -96,10 +89,11 @@ bool takesList(const CLI::Option& option) {
   return option.get_items_expected_max() > 1;
 }
 
-/// What is wrong; empty = the option has the entry's value.
+/// What is wrong, with the option's name, as with its flag; empty = the option has the entry's value.
 std::string setOption(CLI::Option& option, const ConfigEntry& entry) {
-  if (entry.isList && !takesList(option)) return "It takes one value, not a list.";
-  if (isFlag(option) && entry.values[0] != "true" && entry.values[0] != "false") return "It is true or false.";
+  const std::string name = "--" + entry.key;
+  if (entry.isList && !takesList(option)) return name + ": It takes one value, not a list.";
+  if (isFlag(option) && entry.values[0] != "true" && entry.values[0] != "false") return name + ": It is true or false.";
   const bool isEmpty = entry.values.empty() || (!entry.isList && entry.values[0].empty());
   if (isEmpty && option.get_default_str().empty()) return {};
   try {
@@ -113,35 +107,21 @@ std::string setOption(CLI::Option& option, const ConfigEntry& entry) {
 
 Result<std::string> textOf(const std::string& file) {
   errno = 0;
-  const auto bytes = readWhole(file, kMostBytes);
+  const auto bytes = readWhole(file, kMostText);
   if (bytes) return std::string(asText(*bytes));
   const std::string reason = errno != 0
                                  ? std::generic_category().message(errno)
-                                 : "it is no regular file, or larger than " + std::to_string(kMostBytes) + " bytes";
+                                 : "it is no regular file, or larger than " + std::to_string(kMostText) + " bytes";
   return Problem{ProblemCode::unavailable, file, "The configuration can't be read: " + reason + ".", "", ""};
 }
 
 } // namespace
-
-std::string deviceConflict(const CLI::App& command) {
-  if (givenTo(command, "--device") != "cpu") return {};
-  const CLI::Option& requireGpu = *command.get_option("--require-gpu");
-  if (requireGpu.count() > 0 && requireGpu.as<bool>())
-    return "--require-gpu asks for a GPU, and --device cpu uses none: leave one of the two out.";
-  const std::string backend = givenTo(command, "--backend");
-  if (backend.empty() || backend == "auto") return {};
-  return "--backend chooses OpenGL's context, and --device cpu uses none: leave one of the two out.";
-}
 
 void addServeFlags(CLI::App& command, ServeOptions& options) {
   command.option_defaults()->always_capture_default();
   for (const OptionGroup& group : kOptionGroups) {
     for (const OptionRow& row : group.rows) addOption(command, group.name, row, options);
   }
-  command.get_option("--admin-bind")->needs(command.get_option("--admin-port"));
-  command.parse_complete_callback([&command] {
-    if (const std::string conflict = deviceConflict(command); !conflict.empty()) throw CLI::ValidationError(conflict);
-  });
 }
 
 void addConfigFlags(CLI::App& command, ConfigChoice& choice) {
@@ -162,33 +142,32 @@ void addConfigFlags(CLI::App& command, ConfigChoice& choice) {
 
 // CLI11 has a reader of its own (2.1). It gives no line numbers, cuts a quoted text at its '#', passes over keys that
 // are set twice, and lets the file win over the environment.
-Status applyConfig(CLI::App& command, const std::string& file) {
+AppliedConfig applyConfig(CLI::App& command, const std::string& file) {
+  AppliedConfig applied;
+  const auto refuse = [&](const std::string& place, const std::string& detail) {
+    applied.faults.push_back(place + ": " + detail);
+  };
   const auto text = textOf(file);
-  if (!text) return text.problems();
-  const auto entries = parseConfig(*text, file);
-  if (!entries) return entries.problems();
+  const ConfigEntries read = text ? parseConfig(*text, file) : ConfigEntries{{}, text.problems()};
+  for (const Problem& problem : read.problems) refuse(problem.pointer, problem.detail);
   CLI::App checked; // options that are not set yet: a value is checked even where a flag comes before it
   ServeOptions values;
   addServeFlags(checked, values);
   const std::vector<std::string> keys = keysOf(command);
-  Problems problems;
-  for (const ConfigEntry& entry : *entries) {
+  for (const ConfigEntry& entry : read.entries) {
     const std::string place = file + ":" + std::to_string(entry.line);
     CLI::Option* const known = checked.get_option_no_throw("--" + entry.key);
     if (known == nullptr || !known->get_configurable()) {
-      const std::string detail = "There is no key " + asciiExcerpt(entry.key) + suggestion(entry.key, keys);
-      problems.push_back({ProblemCode::invalidValue, place, detail, "", ""});
+      refuse(place, "There is no key " + asciiExcerpt(entry.key) + suggestion(entry.key, keys));
     } else if (const std::string fault = setOption(*known, entry); !fault.empty()) {
-      problems.push_back({ProblemCode::invalidValue, place, entry.key + ": " + fault, "", ""});
+      applied.faulty.insert(entry.key);
+      refuse(place, fault);
     } else if (CLI::Option& option = *command.get_option("--" + entry.key); option.count() == 0) {
       setOption(option, entry);
+      applied.places.emplace(entry.key, place);
     }
   }
-  if (!problems.empty()) return problems;
-  if (const std::string conflict = deviceConflict(command); !conflict.empty()) {
-    return Problem{ProblemCode::invalidValue, file, conflict, "", ""};
-  }
-  return Done{};
+  return applied;
 }
 
 std::string configOf(const CLI::App& command) {

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <functional>
+#include <map>
+#include <set>
 #include <string>
+#include <vector>
 
-#include "protocol/base/result.h"
 #include "server/process/serve.h"
 
 namespace CLI {
@@ -15,10 +18,6 @@ namespace gnomon {
 /// parsing; its values are the defaults.
 void addServeFlags(CLI::App& command, ServeOptions& options);
 
-/// What is wrong with the device that the command's options ask for, wherever they are from; empty = nothing. The
-/// options of a command line are held against it when they are parsed.
-std::string deviceConflict(const CLI::App& command);
-
 /// Where the options come from, beside flags and variables.
 struct ConfigChoice {
   std::string file;   ///< empty = none
@@ -26,10 +25,17 @@ struct ConfigChoice {
 };
 void addConfigFlags(CLI::App& command, ConfigChoice& choice);
 
+/// What a configuration file has done.
+struct AppliedConfig {
+  std::map<std::string, std::string, std::less<>> places{}; ///< of each option that it has set: "FILE:LINE"
+  std::set<std::string, std::less<>> faulty{};              ///< options that it names with a value that they don't take
+  std::vector<std::string> faults{};                        ///< all that is wrong with it, as "FILE:LINE: ..."
+};
+
 /// Gives each option that neither the command line nor the environment has set its value in a configuration file, which
-/// may name any option of the command but --config and --print-config. REQUIRES: the command line is parsed. Problems
-/// have the file and the line as their pointer.
-Status applyConfig(CLI::App& command, const std::string& file);
+/// may name any option of the command but --config and --print-config. A wrong line hides no other. REQUIRES: the
+/// command line is parsed.
+AppliedConfig applyConfig(CLI::App& command, const std::string& file);
 
 /// Every option with its value as it is now, in the form that applyConfig reads.
 std::string configOf(const CLI::App& command);

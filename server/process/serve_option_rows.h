@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "protocol/fields/fields.h"
+#include "server/process/option_text.h"
 #include "server/process/serve.h"
 
 /// One row for each member of ServeOptions: its flag, environment variable, key in a configuration file, and line in
@@ -20,20 +20,14 @@ using MemberOfServeOptions = std::variant<Types ServeOptions::*...>;
 using OptionMember = MemberOfServeOptions<bool, int, std::size_t, std::int64_t, std::string, std::optional<int>,
                                           std::vector<std::string>, DeviceChoice, Backend>;
 
-/// What an option takes.
-struct OptionValue {
-  std::string_view name = ""; ///< in --help; empty = what the type of the member says
-  Range range{};              ///< of a number
-};
-
-inline constexpr std::string_view kBytes = "BYTES";     ///< takes units: 512MB, 2GB; powers of 1024
-inline constexpr std::string_view kSeconds = "SECONDS"; ///< takes units: 90s, 5m, 12h, 30d
-inline constexpr OptionValue kSize{kBytes};
+inline constexpr double kMostBytes = 1ull << 50;
+inline constexpr OptionValue kCache{kBytes, {0, kMostBytes}};    ///< 0 = nothing is kept, unless the row says otherwise
+inline constexpr OptionValue kRoom{kBytes, {1'024, kMostBytes}}; ///< without any, requests could only be refused
 inline constexpr OptionValue kTimeout{kSeconds, {1, 86'400}};
 inline constexpr OptionValue kPause{kSeconds, {0, 86'400}};
 inline constexpr double kLongestAge = 3'650.0 * 86'400; ///< seconds
 inline constexpr OptionValue kFile{"FILE"};
-inline constexpr OptionValue kAddress{"ADDRESS"};
+inline constexpr OptionValue kListen{"ADDRESS", {}, listenAddressFault};
 inline constexpr OptionValue kPort{"INT", {0, 65'535}};
 
 struct OptionRow {
@@ -48,19 +42,19 @@ constexpr OptionRow option(std::string_view name, OptionMember member, OptionVal
 }
 
 inline constexpr std::array kStorageRows{
-    option("bind", &ServeOptions::bind, kAddress,
+    option("bind", &ServeOptions::bind, kListen,
            "Address to listen on; `0.0.0.0` = every IPv4 address, `::` = every address"),
     option("port", &ServeOptions::port, kPort, "Port to listen on; 0 = any free one, which is printed"),
     option("admin-port", &ServeOptions::adminPort, kPort,
            "Port of a second address, which alone serves [metrics](#metrics), and probes; 0 = any free one, named "
            "in the log (`\"event\": \"admin\"`). Without it `/metrics` is served with all else"),
-    option("admin-bind", &ServeOptions::adminBind, kAddress, "Address of `--admin-port`, which needs no API key"),
-    option("allowed-hosts", &ServeOptions::allowedHosts, {"NAMES"},
+    option("admin-bind", &ServeOptions::adminBind, kListen, "Address of `--admin-port`, which needs no API key"),
+    option("allowed-hosts", &ServeOptions::allowedHosts, {"NAMES", {}, allowedHostFault},
            "Names by which clients may [reach the server](#security), beside its addresses and `localhost`; "
            "comma-separated, `*` = any, which is the default with `--bind 0.0.0.0` or `::`. 421 for others"),
-    option("allowed-origins", &ServeOptions::allowedOrigins, {"ORIGINS"},
+    option("allowed-origins", &ServeOptions::allowedOrigins, {"ORIGINS", {}, allowedOriginFault},
            "Pages of other servers that may use this one, as `https://page.example`; comma-separated, `*` = any"),
-    option("trusted-proxies", &ServeOptions::trustedProxies, {"NETWORKS"},
+    option("trusted-proxies", &ServeOptions::trustedProxies, {"NETWORKS", {}, networkFault},
            "Addresses and networks of [proxies](#proxies), as `10.0.0.0/8`, whose `X-Forwarded-For` or `Forwarded` is "
            "trusted; comma-separated"),
     option("keys", &ServeOptions::keysFile, kFile,
@@ -69,10 +63,10 @@ inline constexpr std::array kStorageRows{
     option("drake-spec", &ServeOptions::drakeSpecFile, kFile,
            "File with a frame specification, JSON without size, `camera`, `views` and `output`, by which `POST "
            "/render` draws color pictures for [Drake](API.md#drake); without it a sun from above"),
-    option("store", &ServeOptions::store, {"DIR|ADDRESS"},
+    option("store", &ServeOptions::store, {"DIR|ADDRESS", {}, storeFault},
            "Directory that [keeps scenes](#store) and their light maps over a restart, or address of a Redis server "
            "that does, as `redis://HOST:6379/0`, or `rediss://` for TLS; without it they are kept in memory"),
-    option("store-bytes", &ServeOptions::storeBytes, kSize,
+    option("store-bytes", &ServeOptions::storeBytes, kCache,
            "Scenes kept in that store, as 20GB; 507 beyond it. 0 = as many as its disk or Redis takes"),
     option("store-age", &ServeOptions::storeAgeSeconds, {kSeconds, {0, kLongestAge}},
            "Scenes in that store that were not uploaded or drawn for so long, as 30d or 12h, are removed. 0 = never"),
@@ -102,36 +96,36 @@ inline constexpr std::array kRendererRows{
 };
 
 inline constexpr std::array kLimitRows{
-    option("gpu-scene-bytes", &ServeOptions::gpuSceneBytes, kSize,
+    option("gpu-scene-bytes", &ServeOptions::gpuSceneBytes, kCache,
            "Scenes kept on the graphics device, as 512MB or 2GB; one that was dropped is uploaded again"),
-    option("tile-cache-bytes", &ServeOptions::tileCacheBytes, kSize,
+    option("tile-cache-bytes", &ServeOptions::tileCacheBytes, kCache,
            "Shadow atlases kept for later frames, and half as much for samples of pictures; 0 = every tile is drawn "
            "for each "
            "frame"),
-    option("traced-scene-bytes", &ServeOptions::tracedSceneBytes, kSize,
+    option("traced-scene-bytes", &ServeOptions::tracedSceneBytes, kCache,
            "Ray-tracing structures of scenes, the least recently used dropped first"),
-    option("light-map-bytes", &ServeOptions::lightMapBytes, kSize,
+    option("light-map-bytes", &ServeOptions::lightMapBytes, kCache,
            "Baked light maps kept in memory, the least recently used dropped first"),
-    option("stored-light-map-bytes", &ServeOptions::storedLightMapBytes, kSize,
+    option("stored-light-map-bytes", &ServeOptions::storedLightMapBytes, kCache,
            "Baked light maps and settings chosen for a target in the store, the least recently used dropped first"),
-    option("volume-bytes", &ServeOptions::volumeBytes, kSize,
+    option("volume-bytes", &ServeOptions::volumeBytes, kCache,
            "Grids of volumes and the light in them, the least recently used dropped first"),
-    option("scene-memory-bytes", &ServeOptions::sceneMemoryBytes, kSize,
+    option("scene-memory-bytes", &ServeOptions::sceneMemoryBytes, kRoom,
            "Loaded scenes of all workers, the least recently used dropped first; one may take a worker's share"),
-    option("bundle-memory-bytes", &ServeOptions::bundleMemoryBytes, kSize,
+    option("bundle-memory-bytes", &ServeOptions::bundleMemoryBytes, kRoom,
            "Uploaded scenes kept without `--store`, or beside one in Redis, the least recently used dropped first"),
-    option("max-scene-bytes", &ServeOptions::maxSceneBytes, kSize, "The largest scene that may be uploaded; 413 above"),
-    option("upload-memory-bytes", &ServeOptions::uploadMemoryBytes, kSize,
+    option("max-scene-bytes", &ServeOptions::maxSceneBytes, kRoom, "The largest scene that may be uploaded; 413 above"),
+    option("upload-memory-bytes", &ServeOptions::uploadMemoryBytes, kRoom,
            "Bodies of all requests in progress together; 429 beyond it, 413 for a larger one"),
-    option("frame-memory-bytes", &ServeOptions::frameMemoryBytes, kSize,
+    option("frame-memory-bytes", &ServeOptions::frameMemoryBytes, kRoom,
            "What drawing and encoding take of all frames in progress together: samples, layers, tiles, volumes, "
            "pictures, files; a frame waits for room, 413 above a worker's share"),
-    option("reply-memory-bytes", &ServeOptions::replyMemoryBytes, kSize,
+    option("reply-memory-bytes", &ServeOptions::replyMemoryBytes, kRoom,
            "Replies that clients are taking, together; 503 for one that finds no room for 5 s, but later frames of a "
            "sequence wait"),
-    option("video-memory-bytes", &ServeOptions::videoMemoryBytes, kSize,
+    option("video-memory-bytes", &ServeOptions::videoMemoryBytes, kRoom,
            "Encoders of videos being sent, each 32 MB and about 80 bytes a pixel; 429 beyond it, 413 for a larger one"),
-    option("reply-cache-bytes", &ServeOptions::replyCacheBytes, kSize,
+    option("reply-cache-bytes", &ServeOptions::replyCacheBytes, kCache,
            "Pictures kept for equal requests without report, the least recently used dropped first; 0 = all are drawn"),
     option("queue-limit", &ServeOptions::queueLimit, {.range = {1, 100'000}},
            "Requests that may wait for a worker, of one client its [share](#load); 429 beyond it, for the newest of the "
@@ -148,14 +142,14 @@ inline constexpr std::array kLimitRows{
 };
 
 inline constexpr std::array kJobRows{
-    option("jobs", &ServeOptions::jobsAddress, kAddress,
+    option("jobs", &ServeOptions::jobsAddress, {"ADDRESS", {}, redisFault},
            "Redis that keeps [jobs](#jobs), as `redis://HOST:PORT/DATABASE`, for all servers that name it and share a "
            "store; without it they are in the Redis of `--store`, or else end with the server"),
     option("job-frames", &ServeOptions::jobFrames, {.range = {0, 512}},
            "Frames of jobs that are drawn at once; 0 = as many as there are workers"),
     option("max-jobs", &ServeOptions::jobsPerClient, {.range = {1, 256}},
            "Jobs that are kept for one client, whatever their state; 429 beyond it, and beyond its [share](#load) of all"),
-    option("job-bytes", &ServeOptions::jobBytes, kSize,
+    option("job-bytes", &ServeOptions::jobBytes, kRoom,
            "Requests and pictures of all jobs, kept in Redis, the directory of `--store` or memory; 507 beyond it"),
     option("job-age", &ServeOptions::jobAgeSeconds, {kSeconds, {1, kLongestAge}},
            "A job is removed with its pictures so long after its last frame, as 12h or 7d"),
@@ -194,12 +188,20 @@ inline constexpr std::array kOptionGroups{
     OptionGroup{"Timeouts", kTimeoutRows},
 };
 
-/// True where each member of ServeOptions has one row.
+constexpr bool isNumber(const OptionMember& member) {
+  return std::holds_alternative<int ServeOptions::*>(member) ||
+         std::holds_alternative<std::optional<int> ServeOptions::*>(member) ||
+         std::holds_alternative<std::size_t ServeOptions::*>(member) ||
+         std::holds_alternative<std::int64_t ServeOptions::*>(member);
+}
+
+/// True where each member of ServeOptions has one row, and each number a range that its type can hold.
 consteval bool optionRowsAreComplete() {
   std::vector<OptionMember> members;
   for (const OptionGroup& group : kOptionGroups) {
     for (const OptionRow& row : group.rows) {
       if (std::find(members.begin(), members.end(), row.member) != members.end()) return false;
+      if (isNumber(row.member) && !(row.value.range.min >= 0 && row.value.range.max <= kMostBytes)) return false;
       members.push_back(row.member);
     }
   }

@@ -7,12 +7,12 @@
 
 namespace gnomon {
 
-/// SIGTERM and SIGINT, received by waiting, SIGHUP while something is to be read again, and the end of the process that
-/// holds the other end of a pipe. Blocks these signals for the calling thread and those that it starts later.
+/// SIGTERM, SIGINT and SIGHUP, received by waiting, and the end of the process that holds the other end of a pipe.
+/// Blocks these signals for the calling thread and those that it starts later.
 class Signals {
  public:
-  /// `onHangup`: called for each SIGHUP by the thread that waits; nothing = SIGHUP is left alone. `starter`: a pipe's
-  /// end for reading, whose bytes are dropped; none = the end of the process that started this one changes nothing.
+  /// `onHangup`: called for each SIGHUP by the thread that waits. `starter`: a pipe's end for reading, whose bytes are
+  /// dropped; none = the end of the process that started this one changes nothing.
   explicit Signals(std::function<void()> onHangup, FileDescriptor starter = {});
 
   enum class Event { signal, abandoned, done, timeout };

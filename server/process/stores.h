@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "server/dispatch/dispatcher.h"
@@ -22,12 +23,14 @@ struct OpenedStore {
 /// Whether scenes are in the memory of this process: all of them, or the last ones that were used.
 bool keepsScenesInMemory(const ServeOptions& options);
 
-/// Opens the store. Redis may be away then. `scenesInMemory`: at most, where any are.
-Result<OpenedStore> openStore(const ServeOptions& options, std::size_t scenesInMemory);
+/// Opens the store: in Redis at `address`, where there is one, else in the directory that the options name, or in
+/// memory. Redis may be away then. `scenesInMemory`: at most, where any are.
+Result<OpenedStore> openStore(const ServeOptions& options, const std::optional<redis::Address>& address,
+                              std::size_t scenesInMemory);
 
-/// Opens the queue of jobs: that of --jobs, else in the store's Redis, where it is one, else of this process.
-Result<std::unique_ptr<JobQueue>> openJobs(const ServeOptions& options, const JobLimits& limits,
-                                           std::shared_ptr<redis::Redis> redis);
+/// Opens the queue of jobs: in Redis at `address`, else in the store's Redis, where it is one, else of this process.
+std::unique_ptr<JobQueue> openJobs(const ServeOptions& options, const JobLimits& limits,
+                                   const std::optional<redis::Address>& address, std::shared_ptr<redis::Redis> redis);
 
 /// How often a store is kept clean.
 struct KeepingPeriod {

@@ -124,6 +124,13 @@ Dialled dial(const std::string& host, std::uint16_t port, Clock::time_point dead
 
 } // namespace
 
+bool hasAuthorities(const std::string& file) {
+  const std::unique_ptr<SSL_CTX, decltype(&::SSL_CTX_free)> context(SSL_CTX_new(TLS_client_method()), &::SSL_CTX_free);
+  const bool found = context && SSL_CTX_load_verify_locations(context.get(), file.c_str(), nullptr) == 1;
+  ERR_clear_error();
+  return found;
+}
+
 bool waitFor(int fd, short events, Clock::time_point deadline, const StopSignal* cut) {
   while (true) {
     std::array<pollfd, 2> waiting{{{fd, events, 0}, {cut != nullptr ? cut->fd() : -1, POLLIN, 0}}};

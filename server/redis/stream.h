@@ -17,6 +17,9 @@ namespace gnomon::redis {
 /// Waits until a descriptor has one of the events of poll(2); false where the deadline comes first or `cut` is raised.
 bool waitFor(int fd, short events, Clock::time_point deadline, const StopSignal* cut);
 
+/// Whether a PEM file has certificates of authorities.
+bool hasAuthorities(const std::string& file);
+
 /// What an attempt to move bytes came to.
 struct Moved {
   std::size_t bytes = 0;

@@ -194,7 +194,7 @@ class Access(unittest.TestCase):
             self.keys.write_text(text)
             ended = subprocess.run([BINARY, "serve", "--port", "0", "--keys", str(self.keys)],
                                    capture_output=True, text=True, timeout=TIMEOUT, env=environment())  # fmt: skip
-            self.assertEqual(ended.returncode, 1)
+            self.assertEqual(ended.returncode, 2)
             self.assertIn(words, ended.stderr)
 
     def test_a_file_that_everyone_may_read_is_told_of(self):
@@ -202,6 +202,19 @@ class Access(unittest.TestCase):
         self.keys.chmod(0o644)
         with Server("--device", "cpu", "--keys", str(self.keys)) as server:
             server.log_has("may read the key file")
+            self.keys.chmod(0o440)
+            self.reload(server, line("a", "read"), "was read again")
+            self.keys.chmod(0o644)
+            self.reload(server, line("b", "read") + line("c", "read"), "keys in it: 2")
+            self.assertEqual(server.settled_log().count("may read the key file"), 2)
+
+    def test_hangup_without_keys_changes_nothing(self):
+        with Server("--device", "cpu") as server:
+            for _ in range(3):
+                server.process.send_signal(signal.SIGHUP)
+            server.log_has("there are no keys")
+            self.assertEqual(server.get("/readyz").status, 200)
+            self.assertEqual(server.end(), 0)
 
 
 if __name__ == "__main__":

@@ -102,7 +102,7 @@ class Clients(unittest.TestCase):
         for bad in ("10.0.0.1/8", "proxy.example"):
             ended = subprocess.run([BINARY, "serve", "--port", "0", "--trusted-proxies", "127.0.0.1," + bad],
                                    capture_output=True, text=True, timeout=TIMEOUT, env=environment())  # fmt: skip
-            self.assertEqual(ended.returncode, 1)
+            self.assertEqual(ended.returncode, 2)
             self.assertIn(bad, ended.stderr)
 
 

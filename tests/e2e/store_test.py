@@ -66,7 +66,7 @@ class StoreCase(unittest.TestCase):
 class Quota(StoreCase):
     def test_what_does_not_fit_is_refused_with_the_number_and_the_flag(self):
         scenes = [padded(300 * KILOBYTE, str(number)) for number in range(3)]
-        with Server(*self.flags, "--store-bytes", "700kB") as server:
+        with Server(*self.flags, "--max-scene-bytes", "500kB", "--store-bytes", "700kB") as server:
             self.assertEqual([upload(server, glb).status for glb in scenes[:2]], [201, 201])
             refused = upload(server, scenes[2])
             self.assertEqual(refused.status, 507)
@@ -83,7 +83,7 @@ class Quota(StoreCase):
     def test_uploads_at_once_do_not_pass_it_together(self):
         scenes = [padded(300 * KILOBYTE, str(number)) for number in range(8)]
         statuses = []
-        with Server(*self.flags, "--store-bytes", "1MB") as server:
+        with Server(*self.flags, "--max-scene-bytes", "500kB", "--store-bytes", "1MB") as server:
             threads = [threading.Thread(target=lambda glb=glb: statuses.append(upload(server, glb).status)) for glb in scenes]
             for thread in threads:
                 thread.start()
@@ -94,7 +94,7 @@ class Quota(StoreCase):
         self.assertLessEqual(self.stored_bytes(), MEGABYTE)
 
     def test_scenes_of_another_server_count(self):
-        with Server(*self.flags) as other, Server(*self.flags, "--store-bytes", "500kB") as server:
+        with Server(*self.flags) as other, Server(*self.flags, "--max-scene-bytes", "500kB", "--store-bytes", "500kB") as server:
             self.assertEqual(upload(other, padded(300 * KILOBYTE, "other")).status, 201)
             own = padded(300 * KILOBYTE, "own")
             self.assertEqual(upload(server, own).status, 507)
@@ -105,7 +105,7 @@ class Quota(StoreCase):
         for flag, value in (("--store-bytes", "1GB"), ("--store-age", "30d")):
             done = subprocess.run([BINARY, "serve", "--port", "0", flag, value], capture_output=True, text=True,
                                   timeout=TIMEOUT, env=environment())  # fmt: skip
-            self.assertEqual((done.returncode, done.stdout), (1, ""))
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
             self.assertIn(flag, done.stderr)
 
 

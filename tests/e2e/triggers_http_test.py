@@ -108,7 +108,7 @@ class UnreadLog(unittest.TestCase):
 
 class SlowReaders(ServerTest):
     flags = ("--device", "cpu", "--http-threads", "4", "--max-connections-per-address", "4",
-             "--upload-memory-bytes", "1000000", "--reply-memory-bytes", "16MB")  # fmt: skip
+             "--upload-memory-bytes", "1000000", "--max-scene-bytes", "1000000", "--reply-memory-bytes", "16MB")  # fmt: skip
 
     def test_a_reply_that_nobody_reads_holds_a_thread_for_seconds_only(self):
         scene = self.server.upload("box_on_plane")

@@ -76,7 +76,7 @@ class Store(unittest.TestCase):
         glb = padded(100_000, "large")
         with Server(*self.flags) as server:
             scene = upload(server, glb).json()["id"]
-        with Server(*self.flags, "--max-scene-bytes", "1000") as server:
+        with Server(*self.flags, "--max-scene-bytes", "1KB") as server:
             self.assertEqual(server.frame(scene, SMALL).status, 200)
 
     def test_a_summary_without_its_scene_is_removed(self):

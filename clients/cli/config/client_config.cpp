@@ -25,14 +25,12 @@ std::string usualConfigFile(const char* xdgConfigHome, const char* home) {
 
 Result<ClientConfig> parseClientConfig(std::string_view text, const std::string& file,
                                        std::span<const std::string> keys) {
-  auto sections = parseSections(text, file);
-  if (!sections) return sections.problems();
+  auto [sections, problems] = parseSections(text, file);
   ClientConfig config{file, {}};
-  Problems problems;
-  const auto fail = [&](int line, const std::string& detail) {
+  const auto fail = [&, &problems = problems](int line, const std::string& detail) {
     problems.push_back(invalidValue(placeOf(file, line), detail));
   };
-  for (ConfigSection& section : *sections) {
+  for (ConfigSection& section : sections) {
     for (const ConfigEntry& entry : section.entries) {
       if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) continue;
       fail(entry.line, "There is no key " + asciiExcerpt(entry.key) + suggestion(entry.key, keys));

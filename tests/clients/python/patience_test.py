@@ -56,7 +56,8 @@ class Evictions(unittest.TestCase):
     def test_a_scene_that_was_dropped_is_uploaded_again(self):
         box, city = BOX.read_bytes(), (SCENES / "pebble.glb").read_bytes()
         limit = max(len(box), len(city)) + 1000
-        with Server("--device", "cpu", "--bundle-memory-bytes", str(limit), "--reply-cache-bytes", "0") as server:
+        with Server("--device", "cpu", "--bundle-memory-bytes", str(limit), "--max-scene-bytes", str(limit),
+                    "--reply-cache-bytes", "0") as server:
             with gnomon.Session(url_of(server)) as session:
                 scenes = [session.upload(BOX), session.upload(city)]
                 self.assertLess(len(list(session.list())), 2, "nothing was dropped")

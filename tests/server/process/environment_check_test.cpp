@@ -118,7 +118,7 @@ void onThread(Test test) {
 TEST(Signals, APipeThatIsClosedIsToldOnce) {
   onThread([] {
     Pipe pipe;
-    Signals signals(nullptr, std::move(pipe.reading));
+    Signals signals([] {}, std::move(pipe.reading));
     const StopSignal done;
     EXPECT_EQ(signals.wait(done, kNow), Signals::Event::timeout);
     pipe.writing.reset();
@@ -130,7 +130,7 @@ TEST(Signals, APipeThatIsClosedIsToldOnce) {
 TEST(Signals, WhatIsWrittenIntoThePipeIsDropped) {
   onThread([] {
     Pipe pipe;
-    Signals signals(nullptr, std::move(pipe.reading));
+    Signals signals([] {}, std::move(pipe.reading));
     const StopSignal done;
     const std::array<char, 10'000> text{};
     ASSERT_EQ(::write(pipe.writing.get(), text.data(), text.size()), static_cast<ssize_t>(text.size()));
@@ -144,7 +144,7 @@ TEST(Signals, ASignalIsToldWithOrWithoutAPipe) {
   for (const bool hasPipe : {false, true}) {
     onThread([hasPipe] {
       Pipe pipe;
-      Signals signals(nullptr, hasPipe ? std::move(pipe.reading) : FileDescriptor());
+      Signals signals([] {}, hasPipe ? std::move(pipe.reading) : FileDescriptor());
       const StopSignal done;
       ::pthread_kill(::pthread_self(), SIGTERM);
       EXPECT_EQ(signals.wait(done, Clock::time_point::max()), Signals::Event::signal);
