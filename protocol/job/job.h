@@ -20,6 +20,7 @@ struct Job {
   std::string id{}; ///< 32 random lower-case hexadecimal digits
   JobState state = JobState::queued;
   std::string scene{};
+  std::optional<std::string> key{};
   int first = 0;
   int done = 0;
   int of = 0;

@@ -19,6 +19,7 @@ template <>
 inline constexpr auto kRows<Job> = replyRows(
     "Job", "A sequence that is drawn in the background.", field<&Job::id>("Names the job; not guessable."),
     field<&Job::state>("State of the job."), field<&Job::scene>("Id of its scene."),
+    field<&Job::key>("Name of the key that asked for it; absent = the server has no keys."),
     field<&Job::first>("Index of the first frame that is drawn."), field<&Job::done>("Frames that are drawn."),
     field<&Job::of>("Frames that are to be drawn; the last index is `first` + `of` - 1."),
     field<&Job::bytes>("Size of the pictures so far.", {.unit = "bytes"}),
@@ -32,7 +33,8 @@ inline constexpr auto kRows<Job> = replyRows(
     field<&Job::frames>("Address of one frame, with its index for `{index}`."));
 
 template <>
-inline constexpr auto kRows<JobList> = replyRows("JobList", "Jobs.",
-                                                 field<&JobList::jobs>("Those of the client's key, the newest first."));
+inline constexpr auto kRows<JobList> = replyRows(
+    "JobList", "Jobs.",
+    field<&JobList::jobs>("Those of the client's key, or all where it has the scope `admin`, the newest first."));
 
 } // namespace gnomon

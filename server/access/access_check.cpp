@@ -118,6 +118,7 @@ class AccessCheck {
       if (isSigned) dropSignature(asked);
       asked.client = {"key " + key.name, "key " + key.name};
       asked.key = key.name;
+      asked.isAdmin = allows(key.scope, Scope::admin);
       HttpReply reply = answer(std::move(asked), clientGone);
       reply.key = key.name;
       keepPrivate(reply, expires);

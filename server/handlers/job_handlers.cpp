@@ -60,7 +60,7 @@ Result<double> framesPerSecondOf(Services& services, const std::string& job) {
 } // namespace
 
 HttpReply listJobs(Services& services, RouteCall call) {
-  const auto found = services.jobs.list(call.request.key);
+  const auto found = services.jobs.list(call.request.isAdmin ? std::nullopt : std::optional(call.request.key));
   if (!found) return jobProblem(found.problems(), call);
   JobList list;
   for (const JobProgress& progress : *found) list.jobs.push_back(jobOf(progress, services.jobLimits.age));

@@ -14,7 +14,8 @@ namespace gnomon {
 /// The job as clients see it.
 Job jobOf(const JobProgress& progress, std::chrono::seconds age);
 
-/// A job of the client's key. Problems: notFound, also where it is another key's; unavailable.
+/// A job of the client's key, or any where that has the scope admin. Problems: notFound, also where it is another
+/// key's; unavailable.
 Result<JobProgress> jobAt(Services& services, const RouteCall& call);
 
 /// A refusal that says when to try again, where its problem passes.

@@ -80,6 +80,7 @@ struct HttpRequest {
   TraceContext trace;
   ClientIdentity client;
   std::string key;                          ///< the name of its key; empty = the server has none
+  bool isAdmin = false;                     ///< its key has the scope admin
   Clock::time_point arrived = Clock::now(); ///< its first byte
 };
 

@@ -130,8 +130,8 @@ class JobQueue {
 
   virtual Result<std::optional<JobProgress>> find(const std::string& job) = 0;
 
-  /// Jobs of a key, the newest first.
-  virtual Result<std::vector<JobProgress>> list(const std::string& key) = 0;
+  /// Jobs of a key, or of all, the newest first.
+  virtual Result<std::vector<JobProgress>> list(const std::optional<std::string>& key) = 0;
 
   /// All about a frame but its pictures; nothing where it is not drawn yet.
   virtual Result<std::optional<FrameNote>> note(const std::string& job, int index) = 0;

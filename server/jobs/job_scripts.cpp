@@ -194,7 +194,7 @@ return fieldsOf(ARGV[1])
 const redis::Script kList = script(R"lua(
 removeOld(tonumber(ARGV[2]))
 local jobs = {}
-for _, id in ipairs(call('ZREVRANGE', P .. 'key:' .. ARGV[1], 0, -1)) do
+for _, id in ipairs(call('ZREVRANGE', P .. ARGV[1], 0, -1)) do
   local fields = fieldsOf(id)
   if fields then table.insert(jobs, fields) end
 end

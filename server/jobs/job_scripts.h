@@ -24,7 +24,7 @@ extern const redis::Script kFinish; ///< id, entry, index, note, pictures, carri
 extern const redis::Script kFail;   ///< id, entry, index, problems
 extern const redis::Script kGiveBack; ///< id, entry, lease, deliveries
 extern const redis::Script kFind;     ///< id, age -> the job's fields, or nil
-extern const redis::Script kList;     ///< key, age -> the fields of each
+extern const redis::Script kList;     ///< "key:" and a key, or "changed" for all, age -> the fields of each
 extern const redis::Script kRemove;   ///< id -> 1 where there was one
 extern const redis::Script kSize;     ///< age -> jobs, frames left, bytes
 

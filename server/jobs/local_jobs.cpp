@@ -222,12 +222,12 @@ Result<std::optional<JobProgress>> LocalJobs::find(const std::string& job) {
   return entry == nullptr ? std::nullopt : std::optional(entry->progress);
 }
 
-Result<std::vector<JobProgress>> LocalJobs::list(const std::string& key) {
+Result<std::vector<JobProgress>> LocalJobs::list(const std::optional<std::string>& key) {
   const std::lock_guard lock(mutex_);
   dropOld();
   std::vector<JobProgress> jobs;
   for (const Entry& entry : entries_) {
-    if (entry.job.key == key) jobs.push_back(entry.progress);
+    if (!key || entry.job.key == *key) jobs.push_back(entry.progress);
   }
   return jobs;
 }

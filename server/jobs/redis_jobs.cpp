@@ -210,8 +210,8 @@ Result<std::optional<JobProgress>> RedisJobs::find(const std::string& job) {
   return progress;
 }
 
-Result<std::vector<JobProgress>> RedisJobs::list(const std::string& key) {
-  const auto reply = run(job_scripts::kList, {key, age()});
+Result<std::vector<JobProgress>> RedisJobs::list(const std::optional<std::string>& key) {
+  const auto reply = run(job_scripts::kList, {key ? "key:" + *key : "changed", age()});
   if (!reply) return reply.problems();
   std::vector<JobProgress> jobs;
   for (const redis::Reply& each : reply->elements) {
@@ -221,6 +221,8 @@ Result<std::vector<JobProgress>> RedisJobs::list(const std::string& key) {
       (void)damaged(jobKey(each.elements.empty() ? "" : each.elements.front().text));
     }
   }
+  const auto isNewer = [](const JobProgress& a, const JobProgress& b) { return a.created > b.created; };
+  if (!key) std::stable_sort(jobs.begin(), jobs.end(), isNewer); // of a key they are in order
   return jobs;
 }
 

@@ -19,7 +19,7 @@ class RedisJobs final : public JobQueue {
   Status fail(const FrameTurn& turn, const Problems& problems) override;
   Status giveBack(const FrameTurn& turn, bool isTried) override;
   Result<std::optional<JobProgress>> find(const std::string& job) override;
-  Result<std::vector<JobProgress>> list(const std::string& key) override;
+  Result<std::vector<JobProgress>> list(const std::optional<std::string>& key) override;
   Result<std::optional<FrameNote>> note(const std::string& job, int index) override;
   Result<std::optional<JobFrame>> frame(const std::string& job, int index) override;
   Result<bool> remove(const std::string& job) override;

@@ -216,15 +216,49 @@ class Bounds(JobTest):
 
 
 class Owners(unittest.TestCase):
+    def keys_in(self, folder):
+        """A key file with three keys, and what a request has of each: of ann, bob, and an operator."""
+        file = Path(folder, "keys")
+        scopes = {"ann": "read,render,upload", "bob": "read,render,upload", "operator": "admin"}
+        file.write_text("".join(f"name={name} sha256={hashlib.sha256(name.encode()).hexdigest()} scopes={each}\n"
+                                for name, each in scopes.items()))  # fmt: skip
+        file.chmod(0o600)
+        return str(file), *({"Authorization": f"Bearer {name}"} for name in scopes)
+
+    def assert_operator_rules(self, *flags):
+        """An admin's key sees the jobs of all keys, takes their pictures and ends them; others see their own."""
+        with tempfile.TemporaryDirectory() as folder:
+            keys, ann, bob, operator = self.keys_in(folder)
+            with Server("--device", "cpu", "--keys", keys, *flags) as server:
+                body = (SCENES / "box_on_plane.glb").read_bytes()
+                scene = server.ask("POST", "/v1/scenes", body, {"Content-Type": "model/gltf-binary"} | ann).json()["id"]
+                jobs = [ask_for(server, scene, request, **who).json() for who, request in
+                        ((ann, LONG), (bob, orbit(2)), (operator, orbit(2)))]  # fmt: skip
+                seen = lambda who: [(each["key"], each["id"]) for each in  # noqa: E731
+                                    server.ask("GET", "/v1/jobs", headers=who).json()["jobs"]]
+                names = [(name, job["id"]) for name, job in zip(("ann", "bob", "operator"), jobs)]
+                self.assertEqual(sorted(seen(operator)), sorted(names))
+                self.assertEqual([seen(ann), seen(bob)], [names[:1], names[1:2]])
+                self.assertEqual(server.ask("GET", jobs[1]["address"] + "?wait=30", headers=operator).json()["state"], "done")
+                self.assertEqual(server.ask("GET", jobs[1]["result"], headers=operator).status, 200)
+                self.assertEqual(server.ask("DELETE", jobs[0]["address"], headers=bob).status, 404)
+                self.assertEqual(server.ask("DELETE", jobs[0]["address"], headers=operator).status, 204)
+                self.assertEqual(server.ask("GET", jobs[0]["address"], headers=ann).status, 404)
+                self.assertEqual(server.ask("GET", jobs[2]["address"], headers=ann).status, 404)
+                self.assertEqual(sorted(seen(operator)), sorted(names[1:]))
+
+    def test_an_operator_sees_and_stops_all_jobs(self):
+        self.assert_operator_rules()
+
+    @needs_redis
+    def test_an_operator_sees_and_stops_all_jobs_in_redis(self):
+        with RedisServer() as redis:
+            self.assert_operator_rules("--store", redis.url)
+
     def test_a_job_belongs_to_the_key_that_made_it(self):
         with tempfile.TemporaryDirectory() as folder:
-            keys = Path(folder, "keys")
-            names = ("ann", "bob")
-            keys.write_text("".join(f"name={name} sha256={hashlib.sha256(name.encode()).hexdigest()} "
-                                    "scopes=read,render,upload\n" for name in names))
-            keys.chmod(0o600)
-            ann, bob = ({"Authorization": f"Bearer {name}"} for name in names)
-            with Server("--device", "cpu", "--keys", str(keys), "--store", folder + "/store") as server:
+            keys, ann, bob, _ = self.keys_in(folder)
+            with Server("--device", "cpu", "--keys", keys, "--store", folder + "/store") as server:
                 body = (SCENES / "box_on_plane.glb").read_bytes()
                 scene = server.ask("POST", "/v1/scenes", body, {"Content-Type": "model/gltf-binary"} | ann).json()["id"]
                 job = ask_for(server, scene, orbit(2), **ann).json()

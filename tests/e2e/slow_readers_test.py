@@ -234,10 +234,10 @@ class CrowdingUploads(CrowdedServer):
 
 
 class BodiesThatNeverFit(ServerTest):
-    flags = ("--device", "cpu", "--upload-memory-bytes", "8MB")
+    flags = ("--device", "cpu", "--upload-memory-bytes", "8MB", "--max-scene-bytes", "8MB")
 
     def test_are_too_large_and_not_early(self):
-        reply = self.server.ask("POST", "/v1/scenes", bytes(10_000_000), {"Content-Type": "model/gltf-binary"})
+        reply = self.server.ask("POST", "/v1/scenes", bytes(9_000_000), {"Content-Type": "model/gltf-binary"})
         self.assert_problem(reply, 413)
         problem = reply.json()["problems"][0]
         self.assertIn("--upload-memory-bytes", problem["detail"])

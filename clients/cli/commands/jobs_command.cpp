@@ -29,7 +29,8 @@ struct JobsOptions {
 
 std::string jobLine(const Job& job) {
   return printable(job.id + "  " + std::string(spell(job.state)) + "  " + std::to_string(job.done) + "/" +
-                   std::to_string(job.of) + " frames  " + std::to_string(job.bytes) + " bytes  " + job.created);
+                   std::to_string(job.of) + " frames  " + std::to_string(job.bytes) + " bytes  " + job.created +
+                   (job.key ? "  " + *job.key : ""));
 }
 
 Problem noJob(const Remote& remote) {

@@ -1012,6 +1012,8 @@ class Job(TypedDict, total=False):
         drawn; failed = a frame could not be drawn; cancelled = it was removed while a client waited for it.
     scene:
         Id of its scene.
+    key:
+        Name of the key that asked for it; absent = the server has no keys.
     first:
         Index of the first frame that is drawn.
     done:
@@ -1041,6 +1043,7 @@ class Job(TypedDict, total=False):
     id: str
     state: Literal["queued", "running", "done", "failed", "cancelled"]
     scene: str
+    key: str
     first: int
     done: int
     of: int

@@ -333,6 +333,7 @@ TEST_P(JobQueueTest, AListHasTheJobsOfItsKeyTheNewestFirst) {
   for (const JobProgress& job : *list) ids.push_back(job.id);
   EXPECT_EQ(ids, (std::vector<std::string>{"c", "b", "a"}));
   EXPECT_EQ(queue_->list("nobody")->size(), 0u);
+  EXPECT_EQ(queue_->list(std::nullopt)->size(), 4u);
 }
 
 TEST_P(JobQueueTest, AJobGoesWhenItIsTooOld) {
