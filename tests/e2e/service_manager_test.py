@@ -1,5 +1,7 @@
 """What systemd is told over a real NOTIFY_SOCKET, and what it says of the unit."""
 
+import hashlib
+import http.client
 import os
 import re
 import shutil
@@ -12,6 +14,18 @@ import unittest
 from pathlib import Path
 
 from shipped_server import SLOW, TIMEOUT, Server
+
+
+
+def until(holds, seconds):
+    """Whether it holds within so many seconds."""
+    end = time.monotonic() + seconds
+    while not holds():
+        if time.monotonic() > end:
+            return False
+        time.sleep(0.05)
+    return True
+
 
 UNIT = Path(__file__).resolve().parents[2] / "server" / "deploy" / "gnomon.service"
 
@@ -140,6 +154,132 @@ class Unit(unittest.TestCase):
         unit = UNIT.read_text()
         self.assertIn("Type=notify\n", unit)
         self.assertGreater(int(re.search(r"^TimeoutStopSec=(\d+)$", unit, re.MULTILINE)[1]), 10)
+
+
+
+# systemd in namespaces of its own: with this machine's network and programs, and copies of whatever it writes to.
+BOOT = """
+set -e
+mount --make-rprivate /
+mount --make-rshared /
+mount -t tmpfs -o mode=755 tmpfs /run
+mkdir -p /run/units
+for each in default sysinit basic shutdown; do
+  printf '[Unit]\\nDefaultDependencies=no\\n' > /run/units/$each.target
+done
+install "$1" /run/gnomon
+sed 's#/usr/bin/gnomon#/run/gnomon#' "$2" > /run/units/gnomon.service
+cp -a /etc /run/etc
+mount --bind /run/etc /etc
+mount -t tmpfs tmpfs /tmp
+mount -t tmpfs tmpfs /var
+mkdir /var/lib /var/tmp
+export container=other SYSTEMD_UNIT_PATH=/run/units
+exec /lib/systemd/systemd --system --log-target=null
+"""
+
+
+@unittest.skipUnless(os.geteuid() == 0 and Path("/lib/systemd/systemd").exists(), "this takes root and systemd")
+@unittest.skipIf(SLOW > 1, "sanitizers want more than the unit allows")
+class UnderSystemd(unittest.TestCase):
+    """The unit as it is, under a systemd of its own."""
+
+    def setUp(self):
+        spaces = ["unshare", "--pid", "--mount", "--uts", "--ipc", "--fork", "--mount-proc", "--kill-child=KILL"]
+        self.outer = subprocess.Popen([*spaces, "sh", "-c", BOOT, "boot", os.environ["GNOMON_BINARY"], UNIT],
+                                      stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # fmt: skip
+        self.addCleanup(self.end)
+        if not until(lambda: self.inside("systemctl", "show", "-p", "Version").returncode == 0, 10):
+            self.skipTest("systemd does not run here")
+        with socket.create_server(("127.0.0.1", 0)) as free:
+            self.port = free.getsockname()[1]
+        self.configure("")
+
+    def end(self):
+        self.outer.kill()
+        self.outer.wait(TIMEOUT)
+
+    def inside(self, *command, text=None):
+        children = Path(f"/proc/{self.outer.pid}/task/{self.outer.pid}/children").read_text().split()
+        if not children:
+            return subprocess.CompletedProcess(command, 1)
+        return subprocess.run(["nsenter", "-t", children[0], "--mount", "--pid", *command], input=text, capture_output=True,
+                              text=True, timeout=TIMEOUT)  # fmt: skip
+
+    def write(self, path, text, mode="644"):
+        done = self.inside("sh", "-c", f"mkdir -p $(dirname {path}) && umask 077 && cat > {path} && chmod {mode} {path}", text=text)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def configure(self, more):
+        self.write("/etc/gnomon/gnomon.conf", f"port = {self.port}\nstore = '/var/lib/gnomon'\ndevice = 'cpu'\n{more}")
+
+    def write_keys(self, *names, mode="600"):
+        digest = lambda name: hashlib.sha256(name.encode()).hexdigest()  # noqa: E731
+        self.write("/etc/gnomon/keys", "".join(f"name={name} sha256={digest(name)} scopes=read\n" for name in names), mode)
+
+    def add(self, *lines):
+        """A drop-in."""
+        self.write("/run/units/gnomon.service.d/own.conf", "\n".join(["[Service]", *lines]) + "\n")
+        self.systemctl("daemon-reload")
+
+    def systemctl(self, *command):
+        done = self.inside("systemctl", *command)
+        self.assertEqual(done.returncode, 0, (command, done.stderr, self.shown()))
+
+    def shown(self):
+        text = self.inside("systemctl", "show", "gnomon", "-p", "NRestarts,ExecMainStatus,ActiveState,SubState,MainPID").stdout
+        return dict(line.split("=", 1) for line in text.splitlines())
+
+    def status_for(self, secret):
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=TIMEOUT)
+        connection.request("GET", "/v1/scenes", headers={"Authorization": f"Bearer {secret}"})
+        status = connection.getresponse().status
+        connection.close()
+        return status
+
+    def test_keys_that_root_alone_may_read_are_handed_over(self):
+        self.write_keys("old")
+        self.add("LoadCredential=keys:/etc/gnomon/keys", "Environment=GNOMON_KEYS=%d/keys")
+        self.systemctl("start", "gnomon")
+        self.assertEqual([self.status_for(name) for name in ("old", "new")], [200, 401])
+        self.write_keys("new")
+        self.systemctl("reload", "gnomon")
+        self.assertEqual([self.status_for(name) for name in ("old", "new")], [200, 401], "it is the copy of the start")
+        self.systemctl("restart", "gnomon")
+        self.assertEqual([self.status_for(name) for name in ("old", "new")], [401, 200])
+        self.systemctl("stop", "gnomon")
+        self.assertEqual((self.shown()["ActiveState"], self.shown()["ExecMainStatus"]), ("inactive", "0"))
+
+    def test_keys_of_a_group_are_read_again(self):
+        self.assertEqual(self.inside("groupadd", "--system", "gnomon-keys").returncode, 0)
+        self.write_keys("old", mode="640")
+        self.assertEqual(self.inside("chgrp", "gnomon-keys", "/etc/gnomon/keys").returncode, 0)
+        self.add("SupplementaryGroups=gnomon-keys", "Environment=GNOMON_KEYS=/etc/gnomon/keys")
+        self.systemctl("start", "gnomon")
+        self.assertEqual([self.status_for(name) for name in ("old", "new")], [200, 401])
+        self.write_keys("new", mode="640")
+        self.systemctl("reload", "gnomon")
+        self.assertTrue(until(lambda: [self.status_for(name) for name in ("old", "new")] == [401, 200], TIMEOUT))
+
+    def test_a_reload_without_keys_ends_nothing(self):
+        self.systemctl("start", "gnomon")
+        before = self.shown()["MainPID"]
+        self.systemctl("reload", "gnomon")
+        self.assertEqual(self.status_for("any"), 200)
+        self.assertEqual((self.shown()["MainPID"], self.shown()["NRestarts"]), (before, "0"))
+
+    def test_wrong_options_start_nothing_again_but_a_taken_port_does(self):
+        for wrong in ("trusted-proxies = 'foo'", "keys = '/nowhere'", "max-scene-bytes = -1", "admin-bind = '0.0.0.0'"):
+            self.configure(wrong)
+            self.assertNotEqual(self.inside("systemctl", "start", "gnomon").returncode, 0, wrong)
+            time.sleep(0.5)  # RestartSec= is 0.1 s
+            shown = self.shown()
+            self.assertEqual((shown["ExecMainStatus"], shown["ActiveState"], shown["NRestarts"]), ("2", "failed", "0"), wrong)
+        self.configure("")
+        with socket.create_server(("127.0.0.1", self.port)):
+            self.assertNotEqual(self.inside("systemctl", "start", "gnomon").returncode, 0)
+            self.assertTrue(until(lambda: int(self.shown()["NRestarts"]) > 0, TIMEOUT))
+            self.assertEqual(self.shown()["ExecMainStatus"], "1")
 
 
 if __name__ == "__main__":
