@@ -39,9 +39,9 @@ struct Task {
   Lane lane = Lane::interactive;
   bool holdsRenderer = false; ///< draws for so long that others of its worker would wait
   std::optional<FrameCost>
-      cost{};              ///< of a frame that has the whole time of a request: its end teaches what frames take
-  ClientIdentity client{}; ///< tasks of different sites take turns, and in each of them those of its clients
-  Holder holder{};         ///< of the room for the result's body
+      cost{};                ///< of a frame that has the whole time of a request: its end teaches what frames take
+  ClientIdentity client{};   ///< tasks of different sites take turns, and in each of them those of its clients
+  Holder holder{};           ///< of the room for the result's body
   std::string affinityKey{}; ///< tasks whose scenes have much in common; they prefer one worker. Empty = the scene's id
 };
 

@@ -47,7 +47,8 @@ HttpReply draw(Services& services, const RouteCall& call, const PackedBundle& pa
   }
   Task task = *std::move(made);
   task.order.mediaType = mediaType;
-  task.affinityKey = "drake " + call.request.client.name; // no two of its scenes are the same, and most hold the same meshes
+  task.affinityKey =
+      "drake " + call.request.client.name; // no two of its scenes are the same, and most hold the same meshes
   task.order.depthRange = form.range;
   task.order.labels = form.image == DrakeImage::label;
   TaskResult result = runTask(services, std::move(task), call.clientGone);

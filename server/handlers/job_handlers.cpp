@@ -147,8 +147,8 @@ HttpReply getJobFrame(Services& services, RouteCall call) {
     reply.status = 304;
   } else {
     ReplyRoom room;
-    if (!room.await(services.replyBytes, holderOf(call.request), bytesOf(pictures).value_or(0), Clock::now() + services.replyRoom,
-                    call.clientGone)) {
+    if (!room.await(services.replyBytes, holderOf(call.request), bytesOf(pictures).value_or(0),
+                    Clock::now() + services.replyRoom, call.clientGone)) {
       const int comeAgain = services.replyBytes.retryAfterSeconds();
       return problemReply({noReplyRoom()}, call.request.id, {RequestPart::whole, comeAgain, RefusalReason::memory});
     }

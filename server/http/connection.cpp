@@ -143,8 +143,8 @@ class Connection {
       watch_ = std::make_shared<ClientWatch>(connection_.socket.get(), head->isHttp11);
       reply = answer(handler, *std::move(request));
     }
-    return deliver(std::make_shared<HeldReply>(std::move(reply), std::move(record), watch_, holder_,
-                                               mayKeep(*head), bodyless, head->isHttp11));
+    return deliver(std::make_shared<HeldReply>(std::move(reply), std::move(record), watch_, holder_, mayKeep(*head),
+                                               bodyless, head->isHttp11));
   }
 
   bool mayKeep(const RequestHead& head) const {

@@ -127,9 +127,10 @@ inline constexpr std::array kLimitRows{
            "Encoders of videos being sent, each 32 MB and about 80 bytes a pixel; 429 beyond it, 413 for a larger one"),
     option("reply-cache-bytes", &ServeOptions::replyCacheBytes, kCache,
            "Pictures kept for equal requests without report, the least recently used dropped first; 0 = all are drawn"),
-    option("queue-limit", &ServeOptions::queueLimit, {.range = {1, 100'000}},
-           "Requests that may wait for a worker, of one client its [share](#load); 429 beyond it, for the newest of the "
-           "client with most of them"),
+    option(
+        "queue-limit", &ServeOptions::queueLimit, {.range = {1, 100'000}},
+        "Requests that may wait for a worker, of one client its [share](#load); 429 beyond it, for the newest of the "
+        "client with most of them"),
     option("http-threads", &ServeOptions::httpThreads, {.range = {1, 4'096}},
            "Requests served at once, one thread each; beyond it 503, except for probes. What only waits takes none"),
     option("max-connections-per-address", &ServeOptions::maxConnectionsPerAddress, {.range = {0, 4'096}},
@@ -147,8 +148,9 @@ inline constexpr std::array kJobRows{
            "store; without it they are in the Redis of `--store`, or else end with the server"),
     option("job-frames", &ServeOptions::jobFrames, {.range = {0, 512}},
            "Frames of jobs that are drawn at once; 0 = as many as there are workers"),
-    option("max-jobs", &ServeOptions::jobsPerClient, {.range = {1, 256}},
-           "Jobs that are kept for one client, whatever their state; 429 beyond it, and beyond its [share](#load) of all"),
+    option(
+        "max-jobs", &ServeOptions::jobsPerClient, {.range = {1, 256}},
+        "Jobs that are kept for one client, whatever their state; 429 beyond it, and beyond its [share](#load) of all"),
     option("job-bytes", &ServeOptions::jobBytes, kRoom,
            "Requests and pictures of all jobs, kept in Redis, the directory of `--store` or memory; 507 beyond it"),
     option("job-age", &ServeOptions::jobAgeSeconds, {kSeconds, {1, kLongestAge}},

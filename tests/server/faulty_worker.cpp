@@ -5,10 +5,10 @@
 #include <fcntl.h>
 #include <functional>
 #include <map>
-#include <sys/syscall.h>
 #include <sys/eventfd.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <thread>
 #include <unistd.h>
 #include <utility>

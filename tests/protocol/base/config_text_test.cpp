@@ -38,8 +38,8 @@ TEST(ConfigText, ReadsTextsWordsAndLists) {
 
 TEST(ConfigText, MayBeginWithAByteOrderMark) {
   const auto parsed = parseConfig("\xEF\xBB\xBFport = 8080\n", "a.conf");
-  ASSERT_TRUE(parsed);
-  EXPECT_EQ(parsed->at(0).key, "port");
+  ASSERT_EQ(parsed.entries.size(), 1u);
+  EXPECT_EQ(parsed.entries[0].key, "port");
 }
 
 TEST(ConfigText, AFaultHasItsLine) {
