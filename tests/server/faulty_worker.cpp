@@ -136,7 +136,7 @@ const std::map<std::string, Fault> kFaults{
      }},
     {"lie-giant",
      [](Channel&, const Order&) {
-       const std::string text(100'000, 'i');
+       const std::string text(40'000, 'i'); // more than a packet has
        ::send(kWorkerChannel, text.data(), text.size(), 0);
      }},
     {"lie-wrap",

@@ -47,7 +47,7 @@ TEST(Answers, ALoadedSceneHasASummaryOfItsOwn) {
   const Order load = orderOf(OrderKind::load);
   EXPECT_TRUE(ends(load, summaryOf(kScene)));
   EXPECT_FALSE(ends(load, summaryOf(std::string(64, 'b')))) << "of another scene";
-  for (const char* body : {"", "no JSON", "{}", "[]", "{\"id\":1}"}) EXPECT_FALSE(ends(load, body)) << body;
+  for (const char* body : {"", "no JSON", "{}", "[]", "{\"id\":1}", "{"}) EXPECT_FALSE(ends(load, body)) << body;
   EXPECT_FALSE(ends(load, summaryOf(kScene) + "\n")) << "not as it is written";
 }
 
