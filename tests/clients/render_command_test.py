@@ -7,6 +7,7 @@ import zipfile
 from pathlib import Path
 
 from command_line import BOX, OK, PROBLEM, SMALL, USAGE, CommandLine, gnomon, split_glb
+from extreme_scene import demo_with
 from shipped_server import EXR_MAGIC, png_size
 
 
@@ -29,6 +30,15 @@ class Render(CommandLine):
         for command in (["render", str(longer), "-o", str(self.output)], ["inspect", str(longer)], ["plan", str(longer)]):
             self.assert_ends(gnomon(*command, "--strict"), PROBLEM, "after its end")
         self.assert_ends(gnomon("inspect", BOX, "--strict"), OK)
+
+    def test_places_out_of_reach_are_a_problem_and_no_crash(self):
+        scene = self.folder / "far.glb"
+        scene.write_bytes(demo_with("gold", 1e11))
+        for technique in ("rayTraced", "shadowMap"):
+            run = gnomon("render", str(scene), "-o", str(self.output), *SMALL, "--set", f"shadow.technique={technique}")
+            self.assert_ends(run, PROBLEM, "too far", '"gold"')
+        scene.write_bytes(demo_with("gold", 1.9e9))
+        self.render("--set", "shadow.technique=rayTraced", scene=str(scene))
 
     def test_an_image_that_is_missing_is_left_out(self):
         scene = Path(split_glb(Path(BOX).read_bytes(), self.folder))

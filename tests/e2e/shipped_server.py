@@ -128,9 +128,9 @@ class Server:
                 return int(line.split()[1]) * 1024
         raise AssertionError("the server is gone")
 
-    def connect(self):
-        """A connection for several requests."""
-        return http.client.HTTPConnection(*self.address, timeout=TIMEOUT)
+    def connect(self, client=None):
+        """A connection for several requests, from an address of this machine."""
+        return http.client.HTTPConnection(*self.address, timeout=TIMEOUT, source_address=client and (client, 0))
 
     def socket(self):
         """A bare connection, for what no HTTP client would send."""
@@ -156,10 +156,10 @@ class Server:
         assert reply.status in (200, 201), reply.body
         return reply.json()["id"]
 
-    def frame(self, scene, spec, accept="*/*", **headers):
+    def frame(self, scene, spec, accept="*/*", connection=None, **headers):
         headers = {name.replace("_", "-"): value for name, value in headers.items()}
         headers.update({"Content-Type": "application/json", "Accept": accept})
-        return self.ask("POST", f"/v1/scenes/{scene}/frames", json.dumps(spec), headers)
+        return self.ask("POST", f"/v1/scenes/{scene}/frames", json.dumps(spec), headers, connection)
 
 
 def workers_of(server):

@@ -12,7 +12,8 @@ import time
 import unittest
 from pathlib import Path
 
-from shipped_server import SLOW, SMALL, Server, ServerTest, started_by, workers_of
+from extreme_scene import demo_with
+from shipped_server import SLOW, SMALL, Server, ServerTest, form, started_by, workers_of
 
 FAULTY = os.environ["GNOMON_FAULTY_WORKER"]
 
@@ -243,11 +244,16 @@ class FaultyWorkers(ServerTest):
         super().setUpClass()
         cls.scene = cls.server.upload("box_on_plane")
 
-    def assert_harmless(self, fault, statuses, **headers):
+    def replaced(self):
+        lines = self.server.get("/metrics").body.decode().splitlines()
+        return sum(float(line.split()[-1]) for line in lines if line.startswith("gnomon_worker_replacements_total{"))
+
+    def assert_harmless(self, fault, statuses, client, **headers):
         """The frame gets one of these statuses; all others are drawn, and /livez never blinks."""
         with Liveness(self.server) as liveness, Load(self.server, self.scene, 2) as load:
             time.sleep(0.3)
-            reply = self.server.frame(self.scene, SMALL | {"camera": {"node": fault}}, **headers)
+            spec = SMALL | {"camera": {"node": fault}}
+            reply = self.server.frame(self.scene, spec, connection=self.server.connect(client), **headers)
         self.assertIn(reply.status, statuses, reply.body)
         self.assertEqual(load.refusals, [])
         self.assertEqual(liveness.failures, 0)
@@ -255,17 +261,80 @@ class FaultyWorkers(ServerTest):
         return reply
 
     def test_a_frame_that_aborts(self):
-        reply = self.assert_harmless("fault-abort", {500})
+        reply = self.assert_harmless("fault-abort", {500}, "127.0.0.2")
         self.assertIn("Two workers ended over this request", reply.json()["problems"][0]["detail"])
 
     def test_a_frame_that_loops(self):
         begun = time.monotonic()
-        reply = self.assert_harmless("fault-loop", {504}, Prefer="wait=2")
+        reply = self.assert_harmless("fault-loop", {504}, "127.0.0.3", Prefer="wait=2")
         self.assertEqual(reply.json()["problems"][0]["limit"], "2 seconds")
         self.assertLess(time.monotonic() - begun, 8 * SLOW)
 
     def test_a_worker_that_speaks_nonsense(self):
-        self.assert_harmless("fault-garbage", {500})
+        self.assert_harmless("fault-garbage", {500}, "127.0.0.4")
+
+    def test_what_ended_two_workers_is_not_tried_a_third_time(self):
+        spec = SMALL | {"camera": {"node": "fault-abort again"}}
+        first = self.server.frame(self.scene, spec, connection=self.server.connect("127.0.0.5"))
+        self.assert_problem(first, 500)
+        self.assertNotIn("Retry-After", first.headers)
+        before = self.replaced()
+        for client in ("127.0.0.5", "127.0.0.6"):
+            reply = self.server.frame(self.scene, spec, connection=self.server.connect(client))
+            self.assert_problem(reply, 500)
+            detail = reply.json()["problems"][0]["detail"]
+            self.assertRegex(detail, "^Two workers ended over .* It is not tried again before [23][0-9][0-9] seconds")
+            self.assertIn(int(reply.headers["Retry-After"]), range(200, 301))
+        self.assertEqual(self.replaced(), before)
+
+    def test_a_client_costs_a_few_workers_a_minute(self):
+        before = self.replaced()
+        statuses = []
+        for number in range(5):
+            spec = SMALL | {"camera": {"node": f"fault-abort {number}"}}
+            reply = self.server.frame(self.scene, spec, connection=self.server.connect("127.0.0.7"))
+            statuses.append(reply.status)
+        self.assertEqual(statuses, [500, 500, 429, 429, 429])
+        self.assertIn(int(reply.headers["Retry-After"]), range(1, 61))
+        self.assertEqual(self.replaced() - before, 4)
+        self.assertEqual(self.server.frame(self.scene, SMALL).status, 200)
+
+
+class ExtremeNumbers(ServerTest):
+    """A vertex far from all others: Embree once ended the process over it."""
+
+    flags = ("--workers", "2", "--device", "cpu")
+    WAYS = (
+        {"shadow": {"technique": "rayTraced"}},
+        {"shadow": {"technique": "lightMap", "lightMap": {"size": 512}}},
+        {"views": ["error"]},
+        {"quality": {"maxError": 0.01}},
+        {"shadow": {"technique": "shadowMap"}},
+    )
+
+    def rendered(self, scene, spec):
+        body, content_type = form([("scene", "scene.glb", scene), ("spec", None, json.dumps(spec).encode())])
+        return self.server.ask("POST", "/v1/render", body, {"Content-Type": content_type})
+
+    def test_a_place_that_is_out_of_reach_is_a_problem_with_its_node(self):
+        for mesh, node, value in (("gold", "gold", 1e10), ("gold", "gold", 3e38), ("tree 1", "tree 1", -1e11)):
+            for way in self.WAYS:
+                reply = self.rendered(demo_with(mesh, value), {"width": 32, "height": 24} | way)
+                self.assert_problem(reply, 422)
+                self.assertIn(f'"{node}"', reply.json()["problems"][0]["actual"])
+        scaled = demo_with(None, None, lambda gltf: gltf["nodes"][26].update(scale=[1e38, 1e38, 1e38]))
+        self.assert_problem(self.rendered(scaled, {"width": 32, "height": 24}), 422, "/nodes/26")
+        self.assert_no_worker_ended()
+
+    def test_a_place_that_is_far_but_within_reach_is_drawn(self):
+        for value in (1e9, 1.9e9):
+            for way in self.WAYS:
+                reply = self.rendered(demo_with("gold", value), {"width": 32, "height": 24} | way)
+                self.assertEqual(reply.status, 200, (value, way, reply.body[:500]))
+        self.assert_no_worker_ended()
+
+    def assert_no_worker_ended(self):
+        self.assertNotIn("ended with", self.server.settled_log())
 
 
 if __name__ == "__main__":
