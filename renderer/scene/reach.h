@@ -13,14 +13,13 @@
 namespace gnomon {
 
 /// Metres from the origin, along each axis; also the most that a node may stretch what hangs on it. Twice as far as
-/// requests place anything: a camera sees what it stands in, and no more. It is also what floats bear: the square of an
-/// area of such a scene, 2.6e38, is finite in them, as shading and sorting compute it, and that of one that is a fifth
-/// larger is not.
-inline constexpr double kReach = 2 * kPositionRange.max;
+/// requests place anything. Every technique and view bears it (ExtremeFrames in tests/renderer); the square of an area
+/// of such a scene, 2.6e38, is just finite in floats.
+inline constexpr double kSceneReach = 2 * kPositionRange.max;
 
 /// False for what is not finite.
 inline bool isWithinReach(const glm::dvec3& v) {
-  return std::abs(v.x) <= kReach && std::abs(v.y) <= kReach && std::abs(v.z) <= kReach;
+  return std::abs(v.x) <= kSceneReach && std::abs(v.y) <= kSceneReach && std::abs(v.z) <= kSceneReach;
 }
 
 /// False for an empty box.
@@ -38,7 +37,7 @@ inline bool isWithinReach(const glm::dmat4& worldFromNode) {
 /// For a problem's `limit`.
 inline std::string reachLimit() {
   std::ostringstream text;
-  text << kReach << " metres from the origin along each axis";
+  text << kSceneReach << " metres from the origin along each axis";
   return text.str();
 }
 
