@@ -206,7 +206,7 @@ class OperatorsSpec(unittest.TestCase):
     def assert_no_start(self, file, word):
         command = [BINARY, "serve", "--port", "0", "--drake-spec", str(file)]
         done = subprocess.run(command, capture_output=True, text=True, env=environment(), timeout=TIMEOUT)
-        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assertIn("--drake-spec", done.stderr)
         self.assertIn(word, done.stderr)
 
