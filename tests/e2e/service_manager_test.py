@@ -268,6 +268,15 @@ class UnderSystemd(unittest.TestCase):
         self.assertEqual(self.status_for("any"), 200)
         self.assertEqual((self.shown()["MainPID"], self.shown()["NRestarts"]), (before, "0"))
 
+    def test_a_server_that_says_nothing_is_started_again(self):
+        self.add("WatchdogSec=2")
+        self.systemctl("start", "gnomon")
+        before = self.shown()["MainPID"]
+        self.assertEqual(self.inside("kill", "-STOP", before).returncode, 0)
+        self.assertTrue(until(lambda: self.shown()["NRestarts"] == "1" and self.shown()["SubState"] == "running", TIMEOUT))
+        self.assertNotEqual(self.shown()["MainPID"], before)
+        self.assertEqual(self.status_for("any"), 200)
+
     def test_wrong_options_start_nothing_again_but_a_taken_port_does(self):
         for wrong in ("trusted-proxies = 'foo'", "keys = '/nowhere'", "max-scene-bytes = -1", "admin-bind = '0.0.0.0'"):
             self.configure(wrong)
