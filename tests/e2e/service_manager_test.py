@@ -1,4 +1,4 @@
-"""What systemd is told over a real NOTIFY_SOCKET, and what it says of the unit."""
+"""What systemd gets over a real NOTIFY_SOCKET, and what it says of the unit and does with it."""
 
 import hashlib
 import http.client
