@@ -40,11 +40,13 @@ TaskResult struck(StrikeList::Refusal refusal) {
   return result;
 }
 
-Dispatcher::Dispatcher(DispatcherOptions options) : options_(std::move(options)) {
+FrameCost usualFactors() {
   FrameCost unit;
   unit.parts.fill(1);
-  costFactors_ = CostModel().parts(unit); // until a worker has learned
+  return CostModel().parts(unit);
 }
+
+Dispatcher::Dispatcher(DispatcherOptions options) : options_(std::move(options)), costFactors_(usualFactors()) {}
 
 Result<std::unique_ptr<Dispatcher>> Dispatcher::start(DispatcherOptions options) {
   std::unique_ptr<Dispatcher> dispatcher(new Dispatcher(std::move(options)));

@@ -16,6 +16,8 @@ TaskResult failed(Problem problem, int retryAfterSeconds = 1);
 
 /// The result of a task that no worker is given.
 TaskResult struck(StrikeList::Refusal refusal);
+/// Milliseconds for a unit of each part of a frame's cost, where no worker has learned them.
+FrameCost usualFactors();
 
 /// A task, from its arrival to its result.
 struct Dispatcher::Ticket {

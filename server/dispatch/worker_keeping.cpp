@@ -72,7 +72,8 @@ bool Dispatcher::startWorker(Slot& slot) {
   slot.lastMessage = Clock::now();
   slot.fault = {};
   slot.isHandled = false;
-  slot.beat.costFactors.clear();
+  const FrameCost unlearned = usualFactors();
+  slot.beat.costFactors.assign(unlearned.parts.begin(), unlearned.parts.end());
   if (ending_) slot.process->kill();
   return slot.process->channel().send(textOf(ToWorker{.start = options_.each}));
 }

@@ -89,7 +89,9 @@ Result<Task> frameTask(const Services& services, const RouteCall& call, const st
   const bool isLong = hasTarget || estimate > kLongFrame;
   task.lane = isLong ? Lane::batch : Lane::interactive;
   task.holdsRenderer = isLong && !hasTarget;
-  if (!hasTarget && task.allowed == services.requestTimeout) task.cost = cost;
+  // What is estimated to be far less than the deadline is late for another reason: a machine that is overloaded.
+  const bool mayBeLate = estimate * kDoubt * kDoubt >= allowed;
+  if (!hasTarget && mayBeLate && task.allowed == services.requestTimeout) task.cost = cost;
   return task;
 }
 

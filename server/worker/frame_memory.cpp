@@ -11,8 +11,8 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kFixed = 16u << 20; ///< of any frame: lists of triangles, textures that it is first to read
-constexpr std::size_t kTracedPixel = 4;   ///< what rays are sent for, and where masks lie
+constexpr std::size_t kFixed = 20u << 20; ///< of any frame: lists of triangles, textures that it is first to read
+constexpr std::size_t kTracedPixel = 6;   ///< what rays are sent for, and where masks lie
 constexpr std::size_t kBakedTexel = 6;    ///< its share while it is found, and in the map
 
 /// What a device holds until the pictures are made, in bytes.
@@ -38,7 +38,7 @@ struct EncodingBytes {
 constexpr std::array kEncodingBytes{
     EncodingBytes{ImageFormat::png, 1, 0}, //
     EncodingBytes{ImageFormat::exr, 3, 0}, // all views side by side; a file that grows is copied
-    EncodingBytes{ImageFormat::npy, 1, 1}, // with alpha, the colors that it has multiplied
+    EncodingBytes{ImageFormat::npy, 2, 1}, // with alpha, the colors that it has multiplied
     EncodingBytes{ImageFormat::npz, 1, 2}, // and the array that goes into the ZIP
     EncodingBytes{ImageFormat::tiff, 1, 1}, EncodingBytes{ImageFormat::jpeg, 1, 0},
     EncodingBytes{ImageFormat::webp, 1, 2}, // as YUV, and what is found about its blocks
@@ -88,7 +88,8 @@ std::size_t shadowBytes(const FrameSpec& spec, std::span<const Light> lights, st
     if (isBlurred(light.shadow->filter)) moments += tileTexels(light, spec);
   }
   const double room = static_cast<double>(spec.atlas.size) * spec.atlas.size;
-  bytes += static_cast<std::size_t>(std::min(texels, room)) * device.tileTexel;
+  const auto atTexel = static_cast<std::size_t>(spec.atlas.samples) * device.tileTexel;
+  bytes += static_cast<std::size_t>(std::min(texels, room)) * atTexel;
   bytes += static_cast<std::size_t>(std::min(moments, room)) * device.momentTexel;
   for (const int index : shadowingLights(lights, spec.shadowLightPolicy)) {
     const Shadow& shadow = *lights[static_cast<std::size_t>(index)].shadow;
@@ -122,6 +123,7 @@ std::size_t volumeBytes(const FrameSpec& spec, const SceneSummary& scene, std::s
 
 std::size_t frameBytes(const FrameSpec& spec, const SceneSummary& scene, DeviceKind device, bool asJson) {
   constexpr std::size_t kTriangle = 12;   ///< of a pixel: a number, and what it stands for
+  constexpr std::size_t kCaster = 20;     ///< of a pixel: its triangle, and the node that shadows it
   constexpr std::size_t kPredicted = 120; ///< of a pixel: what a map's texel covers there, and edges
   constexpr std::size_t kTextCopies = 6;  ///< base64 is a third longer: as text, in the document, and written
   const DeviceBytes& own = kDeviceBytes[static_cast<std::size_t>(device)];
@@ -147,6 +149,7 @@ std::size_t frameBytes(const FrameSpec& spec, const SceneSummary& scene, DeviceK
                       volumeBytes(spec, scene, lights.size(), samples);
   if (showsAny(spec, ViewSource::rays)) drawn += pixels * kReferenceBytes;
   if (showsAny(spec, ViewSource::geometry)) drawn += pixels * kTriangle;
+  if (std::ranges::find(spec.views, View::casterIds) != spec.views.end()) drawn += pixels * kCaster;
   if (spec.debug.predictEdges) drawn += pixels * kPredicted;
   const std::size_t files = encoding.files + (asJson ? kTextCopies : 0);
   const std::size_t encoded = samples * own.sample + pictures * files + largest * encoding.work; // samples may be kept

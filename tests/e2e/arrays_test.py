@@ -170,7 +170,7 @@ class Formats(ServerTest):
 
 
 class LittleMemory(ServerTest):
-    flags = ("--workers", "1", "--frame-memory-bytes", "70MB")
+    flags = ("--workers", "1", "--frame-memory-bytes", "80MB")
 
     def test_what_encoding_holds_counts(self):
         scene = self.server.upload("box_on_plane")

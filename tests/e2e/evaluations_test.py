@@ -176,7 +176,7 @@ class LittleTime(ServerTest):
 
 
 class LittleMemory(ServerTest):
-    flags = ("--workers", "1", "--frame-memory-bytes", "32MB")
+    flags = ("--workers", "1", "--frame-memory-bytes", "40MB")
 
     def test_an_evaluation_that_does_not_fit_is_refused_before_it_begins(self):
         scene = self.server.upload("box_on_plane")

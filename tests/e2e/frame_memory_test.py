@@ -1,4 +1,5 @@
-"""Memory: what a frame is said to take is what it takes; in little memory each frame is a picture or a refusal."""
+"""What a frame is said to take is what it takes, in memory and time; where there is little of either, each frame is a
+picture or a refusal that says why."""
 
 import contextlib
 import itertools
@@ -72,6 +73,7 @@ CASES = [
     (FULL | PLAIN | {"output": {"format": "exr"}}, "*/*"),
     (FULL | SMOOTH | {"output": {"format": "exr", "exrPixelType": "float", "exrCompression": "none"}}, "*/*"),
     (FULL | PLAIN | {"output": {"format": "npy", "arrayColors": "linear"}}, "*/*"),
+    (FULL | PLAIN | {"output": {"format": "npy"}}, "*/*"),
     (FULL | PLAIN | {"output": {"format": "npz"}}, "*/*"),
     (FULL | PLAIN | {"output": {"format": "tiff"}}, "*/*"),
     (FULL | SMOOTH | {"output": {"format": "jpeg"}}, "*/*"),
@@ -79,6 +81,7 @@ CASES = [
     (FULL | SMOOTH | {"views": ["color", "depth", "normal", "shadow"]}, "multipart/mixed"),
     (FULL | SMOOTH | {"views": ["error"]}, "*/*"),
     (FULL | PLAIN | {"views": ["color", "position"]}, "multipart/mixed"),
+    (FULL | SMOOTH | {"views": ["casterIds"]}, "*/*"),
     (FULL | SMOOTH | lit(4, technique="rayTraced", raySamples=1), "*/*"),
     (FULL | SMOOTH | lit(4, technique="shadowMap"), "*/*"),
     (FULL | PLAIN | lit(1, technique="shadowMap", filter={"type": "evsm"}), "*/*"),
@@ -221,7 +224,24 @@ class MemoryGroups(unittest.TestCase):
         self.check(1024 * MB)
 
 
-class Volumes(unittest.TestCase):
+class Time(unittest.TestCase):
+    def test_a_frame_that_was_twice_not_done_is_refused(self):  # F11
+        with Server("--device", "cpu", "--request-timeout", "1") as server:
+            scene = upload(server)
+            light = {"sun": {"azimuthDegrees": 10, "elevationDegrees": 45}, "angularDiameterDegrees": 60}
+            for rays in range(8, 513, 8):
+                spec = {"width": 1920, "height": 1080, "lights": [light] * 3}
+                spec["shadow"] = {"technique": "rayTraced", "raySamples": rays}
+                replies = []
+                while len(replies) < 3 and {reply.status for reply in replies} <= {504}:
+                    replies.append(server.frame(scene, spec | {"exposure": len(replies) / 10}))
+                if [reply.status for reply in replies] == [504, 504, 413]:
+                    return self.assertEqual(replies[2].json()["problems"][0]["actual"], "more than 1 seconds")
+                self.assertIn(replies[-1].status, (200, 413), [reply.status for reply in replies])
+                if replies[-1].status == 413:
+                    self.assertIn("about", replies[-1].json()["problems"][0]["actual"])
+                    self.skipTest("here an estimate refuses whatever takes longer")
+
     def test_more_volumes_than_a_request_has_time_for_are_refused_at_once(self):  # F11
         with Server("--device", "cpu", "--request-timeout", "5") as server:
             scene = upload(server, volumes=16)

@@ -258,7 +258,7 @@ class FullQueue(ServerTest):
 
 
 class LittleMemory(ServerTest):
-    flags = ("--workers", "1", "--frame-memory-bytes", "32MB")
+    flags = ("--workers", "1", "--frame-memory-bytes", "40MB")
 
     def test_a_frame_that_does_not_fit_is_refused_before_it_is_drawn(self):
         scene = self.server.upload("box_on_plane")

@@ -142,7 +142,7 @@ TEST_F(WaitingRepliesTest, AStreamGoesOnByItselfAndWithAThread) {
 }
 
 TEST_F(WaitingRepliesTest, AClientThatLeavesOrTakesNothingIsLetGo) {
-  context_.limits.pace.stall = 100ms;
+  context_.limits.pace.most = 100ms;
   const auto pending = enter();
   FileDescriptor gone = ask(*pending, "/later");
   FileDescriptor goneToo = ask(*pending, "/events");

@@ -69,14 +69,14 @@ TEST_F(ChannelTest, WhoeverDoesNotReadHoldsUpNobody) {
 TEST_F(ChannelTest, APatientEndWaitsForRoom) {
   Channel one(std::move(ends_.first), kSoon), other(std::move(ends_.second));
   const std::string text(30'000, 'x');
-  constexpr int kCount = 100;
+  constexpr int kMessages = 100;
   std::thread reading([&] {
-    for (int i = 0; i < kCount; ++i) {
+    for (int i = 0; i < kMessages; ++i) {
       Packet packet;
       EXPECT_EQ(other.receive(packet, kSoon), ChannelEvent::packet);
     }
   });
-  for (int i = 0; i < kCount; ++i) EXPECT_TRUE(one.send(text));
+  for (int i = 0; i < kMessages; ++i) EXPECT_TRUE(one.send(text));
   reading.join();
 }
 
