@@ -44,7 +44,7 @@ class DispatcherTest : public ::testing::Test {
 
   /// The task as another client's.
   static Task of(const std::string& client, Task task) {
-    task.client = client;
+    task.client = {client, client};
     return task;
   }
 

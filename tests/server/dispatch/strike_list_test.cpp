@@ -12,7 +12,7 @@ const Clock::time_point kStart = Clock::time_point() + 1h;
 
 Task taskOf(const std::string& client, const std::string& request, const std::string& scene = "scene") {
   Task task;
-  task.client = client;
+  task.client = {client, client};
   task.request = request;
   task.order.scene = scene;
   return task;
