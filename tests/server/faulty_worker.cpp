@@ -136,8 +136,12 @@ const std::map<std::string, Fault> kFaults{
      }},
     {"lie-giant",
      [](Channel&, const Order&) {
-       const std::string text(40'000, 'i'); // more than a packet has
-       ::send(kWorkerChannel, text.data(), text.size(), 0);
+       std::string text(40'000, 'i'); // more than a packet has
+       iovec content{text.data(), text.size()};
+       msghdr message{};
+       message.msg_iov = &content;
+       message.msg_iovlen = 1;
+       ::sendmsg(kWorkerChannel, &message, 0); // the sandbox knows no send(2)
      }},
     {"lie-wrap",
      [](Channel& front, const Order& order) { // 5 = 2^64 - 1 + 6
