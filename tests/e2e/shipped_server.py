@@ -136,8 +136,8 @@ class Server:
         """A bare connection, for what no HTTP client would send."""
         return socket.create_connection(self.address, timeout=TIMEOUT)
 
-    def ask(self, method, path, body=None, headers=None, connection=None):
-        own = connection or self.connect()
+    def ask(self, method, path, body=None, headers=None, connection=None, client=None):
+        own = connection or self.connect(client)
         try:
             own.request(method, path, body, headers or {})
             reply = own.getresponse()
@@ -156,10 +156,10 @@ class Server:
         assert reply.status in (200, 201), reply.body
         return reply.json()["id"]
 
-    def frame(self, scene, spec, accept="*/*", connection=None, **headers):
+    def frame(self, scene, spec, accept="*/*", client=None, **headers):
         headers = {name.replace("_", "-"): value for name, value in headers.items()}
         headers.update({"Content-Type": "application/json", "Accept": accept})
-        return self.ask("POST", f"/v1/scenes/{scene}/frames", json.dumps(spec), headers, connection)
+        return self.ask("POST", f"/v1/scenes/{scene}/frames", json.dumps(spec), headers, client=client)
 
 
 def workers_of(server):

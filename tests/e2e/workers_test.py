@@ -253,7 +253,7 @@ class FaultyWorkers(ServerTest):
         with Liveness(self.server) as liveness, Load(self.server, self.scene, 2) as load:
             time.sleep(0.3)
             spec = SMALL | {"camera": {"node": fault}}
-            reply = self.server.frame(self.scene, spec, connection=self.server.connect(client), **headers)
+            reply = self.server.frame(self.scene, spec, client=client, **headers)
         self.assertIn(reply.status, statuses, reply.body)
         self.assertEqual(load.refusals, [])
         self.assertEqual(liveness.failures, 0)
@@ -275,12 +275,12 @@ class FaultyWorkers(ServerTest):
 
     def test_what_ended_two_workers_is_not_tried_a_third_time(self):
         spec = SMALL | {"camera": {"node": "fault-abort again"}}
-        first = self.server.frame(self.scene, spec, connection=self.server.connect("127.0.0.5"))
+        first = self.server.frame(self.scene, spec, client="127.0.0.5")
         self.assert_problem(first, 500)
         self.assertNotIn("Retry-After", first.headers)
         before = self.replaced()
         for client in ("127.0.0.5", "127.0.0.6"):
-            reply = self.server.frame(self.scene, spec, connection=self.server.connect(client))
+            reply = self.server.frame(self.scene, spec, client=client)
             self.assert_problem(reply, 500)
             detail = reply.json()["problems"][0]["detail"]
             self.assertRegex(detail, "^Two workers ended over .* It is not tried again before [23][0-9][0-9] seconds")
@@ -292,7 +292,7 @@ class FaultyWorkers(ServerTest):
         statuses = []
         for number in range(5):
             spec = SMALL | {"camera": {"node": f"fault-abort {number}"}}
-            reply = self.server.frame(self.scene, spec, connection=self.server.connect("127.0.0.7"))
+            reply = self.server.frame(self.scene, spec, client="127.0.0.7")
             statuses.append(reply.status)
         self.assertEqual(statuses, [500, 500, 429, 429, 429])
         self.assertIn(int(reply.headers["Retry-After"]), range(1, 61))
