@@ -78,7 +78,7 @@ std::string_view nameOf(Delivery delivery) {
 }
 
 /// Without escapes, also those of escapes; broken ones stay.
-std::string unescaped(std::string_view text) {
+std::string withoutEscapes(std::string_view text) {
   constexpr std::size_t kEscape = 3;
   std::string plain;
   for (const char c : text) {
@@ -99,7 +99,7 @@ std::string readableTarget(std::string_view target) {
   std::size_t begin = 0;
   while (begin < target.size()) {
     const std::size_t end = std::min(target.find_first_of("&?", begin), target.size());
-    if (lowerCase(unescaped(target.substr(begin, end - begin))).find(kSignatureKey) != std::string::npos) break;
+    if (lowerCase(withoutEscapes(target.substr(begin, end - begin))).find(kSignatureKey) != std::string::npos) break;
     begin = end + 1;
   }
   return std::string(target.substr(0, std::min({kMost, begin, target.size()})));
