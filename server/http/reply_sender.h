@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string_view>
 
 #include "server/http/transfer_pace.h"
@@ -32,7 +33,8 @@ class ReplySender {
   Delivery delivery() const { return delivery_; }
 
  private:
-  Delivery waitFor(bool room, Clock::time_point until);
+  std::optional<short> eventsBy(Clock::time_point until, short events) const;
+  std::size_t onItsWay(Clock::time_point now);
 
   const int fd_;
   TransferPace pace_;
