@@ -67,7 +67,7 @@ double pixelsOf(const FrameSpec& spec) {
   return static_cast<double>(spec.width) * spec.height;
 }
 
-bool isBlurred(const Filter& filter) {
+bool hasMoments(const Filter& filter) {
   return filter.type == FilterType::vsm || filter.type == FilterType::evsm || filter.type == FilterType::msm;
 }
 
@@ -81,7 +81,7 @@ double tileCost(const Light& light, const FrameSpec& spec, std::uint64_t triangl
   const auto count = static_cast<double>(triangles);
   const double rows = std::sqrt(texels * spec.atlas.samples);
   return tileCount(light) * count * kTileTriangle + rows * kTileRow * std::pow(count, kTileGrowth) +
-         (isBlurred(light.shadow->filter) ? texels * kBlurredTexel : 0.0);
+         (hasMoments(light.shadow->filter) ? texels * kBlurredTexel : 0.0);
 }
 
 double lookupOfPixel(const Filter& filter) {

@@ -63,7 +63,7 @@ class FrameSource {
 
   /// What the next frame waits for without a thread; nullptr = next() has it, or waits itself. `heartbeat`: of that
   /// wait.
-  virtual std::shared_ptr<ReplyWait> wait(std::string_view heartbeat) { return static_cast<void>(heartbeat), nullptr; }
+  virtual std::shared_ptr<ReplyWait> wait(std::string_view /*heartbeat*/) { return nullptr; }
 
   /// The next frame. `waiting` is called every few seconds until it is there. After one with problems there is none.
   /// REQUIRES: not atEnd().
