@@ -73,9 +73,9 @@ constexpr std::array kStarting{SCMP_SYS(access),  SCMP_SYS(faccessat), SCMP_SYS(
                                SCMP_SYS(seccomp), SCMP_SYS(capset),    SCMP_SYS(capget),   SCMP_SYS(arch_prctl)};
 
 /// The kinds of ioctl(2) that graphics devices have, by the second byte of the request: GEM and KMS, buffers and fences
-/// that are shared, NVIDIA (both), AMD's compute, the paravirtual GPU, Mali, and CUDA's memory, which has none. Not
+/// that are shared, NVIDIA (both), the paravirtual GPU, Mali, and NVIDIA's memory, which has none. Not
 /// those of terminals and sockets, which send signals and type into terminals.
-constexpr std::array<scmp_datum_t, 9> kDeviceControls{'d', 'b', '>', 'F', 'm', 'K', 'G', 0x80, 0};
+constexpr std::array<scmp_datum_t, 8> kDeviceControls{'d', 'b', '>', 'F', 'm', 'G', 0x80, 0};
 
 /// libseccomp's own macros are C's.
 scmp_arg_cmp is(unsigned argument, scmp_datum_t value) {

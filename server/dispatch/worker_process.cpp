@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +12,7 @@
 #include <string_view>
 #include <sys/wait.h>
 #include <system_error>
+#include <thread>
 #include <unistd.h>
 #include <vector>
 
@@ -73,6 +75,19 @@ class Spawning {
   posix_spawnattr_t attributes_{};
 };
 
+/// Of a process that waits for its first message. It begins as closed as this one is, until its program is there, and
+/// the system may hide it so long.
+FileDescriptor openMemory(pid_t pid) {
+  const std::string path = "/proc/" + std::to_string(pid) + "/statm";
+  FileDescriptor file;
+  constexpr int kMostTries = 200;
+  for (int tries = 0; !file && tries < kMostTries; ++tries) {
+    if (tries > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    file = FileDescriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  }
+  return file;
+}
+
 Problem refused() {
   return {ProblemCode::unavailable, "", "The system refused to start a worker.", "",
           std::error_code(errno, std::generic_category()).message()};
@@ -89,9 +104,7 @@ Result<std::shared_ptr<WorkerProcess>> WorkerProcess::start(const std::string& p
 }
 
 WorkerProcess::WorkerProcess(pid_t pid, FileDescriptor channel)
-    : pid_(pid),
-      memory_(::open(("/proc/" + std::to_string(pid) + "/statm").c_str(), O_RDONLY | O_CLOEXEC)),
-      channel_(std::move(channel)) {}
+    : pid_(pid), memory_(openMemory(pid)), channel_(std::move(channel)) {}
 
 WorkerProcess::~WorkerProcess() {
   kill();

@@ -63,7 +63,7 @@ constexpr const char* kReadFiles[] = {"/usr",
                                       "/proc/filesystems",
                                       "/proc/sys/vm"};
 
-constexpr const char* kDevices[] = {"/dev/null", "/dev/zero", "/dev/dri", "/dev/kfd", "/dev/dxg", "/dev/mali0"};
+constexpr const char* kDevices[] = {"/dev/null", "/dev/zero", "/dev/dri", "/dev/dxg", "/dev/mali0"};
 
 std::vector<FileGrant> filesOfDrawing() {
   std::vector<FileGrant> grants;

@@ -49,21 +49,19 @@ class Reply:
 
 class Server:
     """`gnomon serve` with further flags, on any free port unless one is given, with further variables in its
-    environment, no more than `descriptors`, and by a `user` where these are given. Use it in a `with` statement."""
+    environment, no more than `descriptors` where that is given, and by a program that executes it if `by` has one. Use it
+    in a `with` statement."""
 
-    def __init__(self, *flags, port=0, variables=None, descriptors=None, user=None):
+    def __init__(self, *flags, port=0, variables=None, descriptors=None, by=()):
         self.log = tempfile.TemporaryFile()
         limited = [] if descriptors is None else ["prlimit", f"--nofile={descriptors}"]
         self.process = subprocess.Popen(
-            [*limited, BINARY, "serve", "--until-stdin-closes", "--port", str(port), *flags],
+            [*by, *limited, BINARY, "serve", "--until-stdin-closes", "--port", str(port), *flags],
             stdin=subprocess.PIPE,  # open until the tests end, however they end
             stdout=subprocess.PIPE,
             stderr=self.log,
             text=True,
             env=environment(**(variables or {})),
-            user=user,
-            group=user,
-            extra_groups=None if user is None else [],
         )
         line = self.process.stdout.readline()  # printed once requests are taken
         if not line.startswith("listening on http://"):

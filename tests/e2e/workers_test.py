@@ -2,6 +2,7 @@
 
 import ctypes
 import glob
+import json
 import os
 import re
 import signal
@@ -13,7 +14,7 @@ import unittest
 from pathlib import Path
 
 from extreme_scene import demo_with
-from shipped_server import SLOW, SMALL, Server, ServerTest, form, started_by, workers_of
+from shipped_server import SCENES, SLOW, SMALL, Server, ServerTest, form, started_by, workers_of
 
 FAULTY = os.environ["GNOMON_FAULTY_WORKER"]
 
@@ -163,6 +164,28 @@ class SealedWorkers(unittest.TestCase):
                 names = {leads_to(entry).split(":")[0] for entry in Path(f"/proc/{pid}/fd").iterdir()}
                 self.assertFalse({name for name in names if name.endswith((".bundle", ".map"))}, "work is done")
 
+    def test_what_starts_the_reader_of_a_volume_is_sealed_and_names_are_no_paths(self):
+        with Server("--workers", "1", "--device", "cpu") as server:
+            model, ball = (SCENES / "box_on_plane.glb").read_bytes(), (SCENES / "ball.vdb").read_bytes()
+
+            def drawn(grid):
+                volume = {"file": "ball.vdb", "grid": grid, "box": {"min": [-3, 2, -3], "max": [3, 5, 3]},
+                          "transferFunction": [{"value": 0}, {"value": 5, "extinction": 5}]}
+                body, content_type = form([("scene", "a.glb", model), ("file", "ball.vdb", ball),
+                                           ("spec", None, json.dumps(SMALL | {"volumes": [volume]}).encode())])
+                return server.ask("POST", "/v1/render", body, {"Content-Type": content_type})
+
+            self.assertEqual(drawn("density").status, 200)
+            for grid in ("/bin/sh", "density\n/bin/sh", "density\0", "x" * 255, "\U00010000" * 255):
+                refused = drawn(grid)
+                self.assertIn(refused.status, (400, 422), refused.body)
+                self.assertTrue(refused.pointers()[0].startswith("/volumes/0"), refused.pointers())
+            self.assertEqual(drawn("density").status, 200)
+            (worker,) = workers_of(server)
+            starters = {pid for pid, _ in started_by(worker)}
+            self.assertEqual(len(starters), 1, "the readers have ended")
+            self.assert_sealed(starters.pop())
+
     def test_workers_that_draw_by_opengl_are_sealed_too(self):
         with Server("--workers", "1", "--device", "gl") as server:
             scene = server.upload("box_on_plane")
@@ -217,21 +240,35 @@ class TakenOverWorkers(unittest.TestCase):
         self.assertEqual(self.escapes("--device", "gl"), self.DRIVERS_NEED)
 
 
+@unittest.skipUnless(os.geteuid() == 0, "another user is needed")
 class ClosedProcesses(unittest.TestCase):
     """Processes of the same user can't look into the front, its workers, and what starts the readers of VDB files."""
 
-    @unittest.skipUnless(os.geteuid() == 0, "another user is needed")
+    flags = ("--workers", "1", "--device", "cpu")
+    AS_ANOTHER = ("setpriv", "--reuid=65532", "--regid=65532", "--clear-groups")
+
+    def assert_memory_is_known(self, server):
+        scene = server.upload("box_on_plane")
+        self.assertEqual(server.frame(scene, SMALL).status, 200)
+        resident = re.search(rb"^gnomon_workers_resident_bytes (\S+)$", server.get("/metrics").body, re.MULTILINE)
+        self.assertGreater(float(resident[1]), 1 << 20)
+
     def test_their_memory_and_variables_are_the_systems(self):
-        with Server("--workers", "1", "--device", "cpu", user=65532) as server:
-            scene = server.upload("box_on_plane")
-            self.assertEqual(server.frame(scene, SMALL).status, 200, "such a server works")
+        with Server(*self.flags, by=self.AS_ANOTHER) as server:
+            self.assert_memory_is_known(server)
             below = {pid for pid, _ in started_by(server.process.pid)}
             self.assertGreaterEqual(len(below), 2, "a worker, and its starter")
             for pid in below | {server.process.pid}:
-                self.assertEqual(os.stat(f"/proc/{pid}").st_uid, 0, "root's: the process is not dumpable")
+                self.assertEqual(os.stat(f"/proc/{pid}/environ").st_uid, 0, "root's: the process is not dumpable")
                 self.assertIn("Uid:\t65532", Path(f"/proc/{pid}/status").read_text())
-            resident = re.search(rb"^gnomon_workers_resident_bytes (\S+)$", server.get("/metrics").body, re.MULTILINE)
-            self.assertGreater(float(resident[1]), 1 << 20, "its memory is still known")
+
+    def test_the_front_knows_a_workers_memory_where_the_system_hides_closed_processes(self):
+        """As systemd's ProtectProc=invisible does."""
+        hidden = ("unshare", "--mount", "sh", "-c", 'mount -t proc -o hidepid=invisible proc /proc && exec "$@"', "sh")
+        if subprocess.run([*hidden, "true"], capture_output=True).returncode != 0:
+            self.skipTest("processes can't be hidden here")
+        with Server(*self.flags, by=(*hidden, *self.AS_ANOTHER)) as server:
+            self.assert_memory_is_known(server)
 
 
 class FaultyWorkers(ServerTest):

@@ -34,9 +34,11 @@ TEST(MemoryPlan, WorkersAndTheProcessThatListensFitTogether) {
     for (const int cores : {1, 2, 16, 64}) {
       const ServeOptions options = fittedTo(memory);
       const std::size_t workers = usualWorkers(cores, memory);
-      EXPECT_LE(workers * workerBytes(options, workers, memory) + options.uploadMemoryBytes + options.replyMemoryBytes +
+      const std::uint64_t each = workerBytes(options, workers, memory);
+      EXPECT_LE(workers * (each + vdbReaderBytes(each)) + options.uploadMemoryBytes + options.replyMemoryBytes +
                     options.videoMemoryBytes,
                 memory);
+      EXPECT_GE(vdbReaderBytes(each), 32u << 20) << "a reader without a file takes 12 MB";
     }
   }
 }

@@ -154,7 +154,9 @@ const std::array kEscapes{
     Escape{"become dumpable", Escape::everySeal,
            [](pid_t, const std::string&) { return static_cast<long>(::prctl(PR_SET_DUMPABLE, 1, 0, 0, 0)); }},
     Escape{"choose who may trace it", Escape::everySeal,
-           [](pid_t, const std::string&) { return static_cast<long>(::prctl(PR_SET_PDEATHSIG, 0, 0, 0, 0)); }},
+           [](pid_t, const std::string&) {
+             return static_cast<long>(::prctl(PR_SET_PTRACER, PR_SET_PTRACER_ANY, 0, 0, 0));
+           }},
     Escape{"have every page be code", Escape::everySeal,
            [](pid_t, const std::string&) { return call(SYS_personality, 0xffffffff); }},
     Escape{"map code", Escape::fullSeal, [](pid_t, const std::string&) { return mapped(PROT_READ | PROT_EXEC); }},
