@@ -46,8 +46,7 @@ Status checkDevice(const FrameSpec& spec, const RendererInfo& device) {
 Status checkAtlas(const ShadowPlan& plan, int samples) {
   constexpr std::int64_t kDepthBytes = 4;
   constexpr std::int64_t kMomentBytes = 16;
-  const bool moments =
-      std::any_of(plan.tiles.begin(), plan.tiles.end(), [](const ShadowTile& tile) { return isBlurred(tile); });
+  const bool moments = std::any_of(plan.tiles.begin(), plan.tiles.end(), isBlurred);
   const std::int64_t texels = std::int64_t{plan.atlasWidth} * plan.atlasHeight;
   const std::int64_t bytes = texels * (kDepthBytes * samples + (moments ? kMomentBytes : 0));
   if (bytes <= kLimits.maxAtlasBytes) return Done{};

@@ -2,6 +2,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <fcntl.h>
 #include <functional>
 #include <map>
@@ -27,11 +28,12 @@
 namespace gnomon {
 namespace {
 
+/// Shared memory, which no limit of allocations bounds (RLIMIT_DATA).
 [[noreturn]] void eatMemory() {
   constexpr std::size_t kBite = 16 << 20;
-  std::vector<std::vector<char>> eaten;
   while (true) {
-    eaten.emplace_back(kBite, 'x');
+    void* const bite = ::mmap(nullptr, kBite, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (bite != MAP_FAILED) std::memset(bite, 'x', kBite);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
 }
@@ -82,6 +84,15 @@ FileDescriptor sealedFile(std::string_view bytes) {
   return *memoryFile(asBytes(bytes));
 }
 
+/// Three events of an evaluation, and then the end.
+[[noreturn]] void abortAfterEvents(Channel& front, const Order& order) {
+  for (int done = 0; done < 3; ++done) {
+    front.send(textOf(ToFront{.event = OrderEvent{order.number, "progress", std::to_string(done)}}));
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(100)); // until they are sent on
+  std::abort();
+}
+
 using Fault = std::function<void(Channel& front, const Order& order)>;
 
 /// What a worker does whose parser was taken over, beside the order that it was given.
@@ -92,6 +103,7 @@ const std::map<std::string, Fault> kFaults{
     {"fault-silence", [](Channel&, const Order&) { std::raise(SIGSTOP); }},
     // The order is never carried out.
     {"fault-escape", [](Channel&, const Order&) { ::syscall(SYS_tgkill, ::getpid(), ::getpid(), SIGUSR1); }},
+    {"fault-events", abortAfterEvents},
     {"fault-garbage", [](Channel& front, const Order&) { front.send("{\"outcome\": [}"); }},
     {"lie-pipe", [](Channel& front, const Order& order) { sendResult(front, order, pipeOf("bytes")); }},
     {"lie-eventfd",
@@ -164,21 +176,11 @@ const std::map<std::string, Fault> kFaults{
      }},
 };
 
-/// Three events of an evaluation, and then the end.
-void abortAfterEvents(Channel& front, std::uint64_t number) {
-  for (int done = 0; done < 3; ++done) {
-    front.send(textOf(ToFront{.event = OrderEvent{number, "progress", std::to_string(done)}}));
-  }
-  std::this_thread::sleep_for(std::chrono::milliseconds(100)); // until they are sent on
-  std::abort();
-}
-
 /// True where the order's text names a fault, which has happened then.
 bool happened(const Packet& packet, Channel& front) {
   const auto message = readToWorker(packet.text);
   if (!message || !message->order || packet.files.size() != 2) return false;
   const Bytes request = readFile(packet.files[1], kLimits.maxSpecBytes).value_or(Bytes());
-  if (asText(request).find("fault-events") != std::string_view::npos) abortAfterEvents(front, message->order->number);
   for (const auto& [name, fault] : kFaults) {
     if (asText(request).find(name) == std::string_view::npos) continue;
     fault(front, *message->order);

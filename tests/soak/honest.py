@@ -132,6 +132,54 @@ class Uploads(Client):
             self.accepted.append(json.loads(reply[2])["id"])
 
 
+class SteadyReader(Client):
+    """Takes large pictures at a steady pace, each of them for half a minute."""
+
+    SECONDS = 30
+    SLICES = 8  # a second
+
+    def __init__(self, number, rate, tally, stop, scene):
+        super().__init__(f"reader of {rate >> 10} KiB/s", tally, stop, 1.0, f"127.0.3.{number + 1}")
+        self.rate, self.scene = rate, scene
+
+    def step(self):
+        side = int((self.rate * self.SECONDS / 12) ** 0.5)  # three floats a pixel
+        spec = {"width": side, "height": side, "output": {"format": "exr", "exrPixelType": "float", "exrCompression": "none"}}
+        connection = self.connect()
+        connection.request("POST", f"/v1/scenes/{self.scene}/frames", json.dumps(spec), {"Content-Type": "application/json"})
+        reply = connection.getresponse()
+        length, begun, taken = int(reply.headers["Content-Length"]), time.monotonic(), 0
+        while taken < length:
+            data = reply.read(min(self.rate // self.SLICES, length - taken))
+            if not data:
+                break
+            taken += len(data)
+            time.sleep(max(taken / self.rate - (time.monotonic() - begun), 0))
+        if reply.status != 200:
+            self.tally.note(self.name, str(reply.status))
+        elif taken < length:
+            self.tally.note_broken(self.name, f"cut after {taken} of {length} bytes")
+        else:
+            self.tally.note(self.name, "served")
+
+
+class Newcomer(Client):
+    """Comes from a new address each second, as a balancer would send it: asks /readyz, and then for a frame."""
+
+    def __init__(self, tally, stop, scene):
+        super().__init__("newcomer", tally, stop, 1.0)
+        self.scene = scene
+
+    def step(self):
+        self.connection, self.address = None, f"127.0.4.{random.randint(1, 254)}"
+        ready, _, _ = ask(self.connect(), "GET", "/readyz")
+        spec = {"width": 64, "height": 36, "lights": [{"sun": {"azimuthDegrees": random.uniform(0, 360), "elevationDegrees": 40}}]}
+        status, _, _ = ask(self.connect(), "POST", f"/v1/scenes/{self.scene}/frames", json.dumps(spec),
+                           {"Content-Type": "application/json", "Accept": "image/png"})  # fmt: skip
+        said = "ready" if ready == 200 else "not ready"
+        self.tally.note(self.name, f"{said}, and {'served' if status == 200 else status}")
+
+
 class Program(Client):
     """A program that is run again and again: curl, the command line, a browser."""
 

@@ -4,10 +4,12 @@ elsewhere they would not take this machine's processor."""
 import json
 import os
 import random
+import re
 import socket
 import struct
 import threading
 import time
+from pathlib import Path
 
 from service import PORT
 
@@ -118,6 +120,73 @@ def broken_models(_scene):
         drain(connection)
 
 
+def numbered(number):
+    """An address of its own for each of thousands of clients."""
+    return f"127.1.{number // 250}.{number % 250 + 1}"
+
+
+def idle_streams(scene):
+    """A thousand addresses that each follow one long job, and never read its events."""
+    job = json.dumps({"spec": {"width": 1280, "height": 720}, "frames": [{"exposure": i / 500} for i in range(1000)]})
+    asked = posting(f"/v1/scenes/{scene}/sequences", job.encode()).replace(HOST, HOST + b"Prefer: respond-async\r\n")
+    first = connected(19)
+    first.sendall(asked)
+    address = re.search(rb"Location: (\S+)", first.recv(1 << 16))
+    if not address:
+        return time.sleep(5)
+    held = []
+    try:
+        for number in range(1000):
+            held.append(socket.create_connection(("127.0.0.1", PORT), 20, (numbered(number), 0)))
+            held[-1].sendall(b"GET %s HTTP/1.1\r\n" % address[1] + HOST + b"Accept: text/event-stream\r\n\r\n")
+    except OSError:
+        pass
+    time.sleep(20)
+    first.sendall(b"DELETE %s HTTP/1.1\r\n" % address[1] + HOST + b"\r\n")
+
+
+def npy(side):
+    """A cube of floats."""
+    head = b"{'descr': '<f4', 'fortran_order': False, 'shape': (%d, %d, %d), }" % (side, side, side)
+    head += b" " * (64 - (len(head) + 11) % 64) + b"\n"
+    return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(head)) + head + struct.pack("<f", 0.5) * side**3
+
+
+def many_volumes(_scene):
+    """Sixteen grids that light and shade each other."""
+    names = [f"v{i}.npy" for i in range(16)]
+    model = b'{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "scene": 0, "nodes": [{"name": "empty"}]}'
+    parts = [(b'name="scene"; filename="a.gltf"', model)]
+    parts += [(b'name="file"; filename="%s"' % name.encode(), npy(64)) for name in names]
+    body = b"".join(b"--cut\r\nContent-Disposition: form-data; " + head + b"\r\n\r\n" + data + b"\r\n" for head, data in parts)
+    connection = connected(20)
+    connection.sendall(posting("/v1/scenes", body + b"--cut--\r\n", kind=b"multipart/form-data; boundary=cut"))
+    stored = re.search(rb'"id": ?"([^"]+)"', connection.recv(1 << 16))
+    if not stored:
+        return time.sleep(5)
+    steps = [{"value": 0, "extinction": 0}, {"value": 1, "extinction": 0.01}]
+    boxes = [{"min": [-80 + 10 * i, 0, -80], "max": [-60 + 10 * i, 40, 80]} for i in range(16)]
+    volumes = [{"file": name, "box": box, "transferFunction": steps} for name, box in zip(names, boxes)]
+    spec = json.dumps({"width": 320, "height": 240, "lights": [{"sun": {"azimuthDegrees": 30, "elevationDegrees": 40}}], "volumes": volumes})
+    for _ in range(5):
+        connection = connected(20, 60)
+        connection.sendall(posting(f"/v1/scenes/{stored[1].decode()}/frames", spec.encode()))
+        connection.recv(1 << 16)
+
+
+LIES = re.findall(r'\{"((?:lie|fault)-[a-z-]+)"', (Path(__file__).parent.parent / "server/faulty_worker.cpp").read_text())
+
+
+def lying_workers(scene):
+    """Requests whose worker does what one would do that was taken over; see tests/server/faulty_worker.cpp."""
+    for lie in LIES:
+        spec = {"width": 64, "height": 36, "camera": {"node": lie}}
+        connection = connected(21)
+        connection.sendall(posting(f"/v1/scenes/{scene}/frames", json.dumps(spec).encode()))
+        connection.recv(1 << 16)
+        time.sleep(1)
+
+
 def flood(scene):
     """Good frames without end, from one address: of all that the workers can do, ten times."""
     for _ in range(200):
@@ -128,7 +197,8 @@ def flood(scene):
         drain(connection)
 
 
-ATTACKS = [slow_heads, slow_bodies, unread_replies, vanishing, idle_connections, noise, costly_requests, broken_models]
+ATTACKS = [slow_heads, slow_bodies, unread_replies, vanishing, idle_connections, idle_streams, noise, costly_requests,
+           many_volumes, broken_models, lying_workers]  # fmt: skip
 FLOODS = 90  # of them, four are drawn and 64 may wait
 
 

@@ -90,6 +90,8 @@ class Service:
             self.container = subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
             self.pid = int(self.inspected("{{.State.Pid}}"))
         else:
+            liar = Path(self.binary).with_name("gnomon_faulty_worker")
+            flags += ["--worker-program", str(liar)] if liar.exists() else []
             command = ["prlimit", f"--nofile={DESCRIPTORS}", self.binary, "serve", "--store", str(self.store), *flags]
             self.process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=self.log,
                                             preexec_fn=self.group and self.group.enter)  # fmt: skip

@@ -20,7 +20,7 @@ TEST(DecodeFrameSpec, WordsOfEarlierVersionsAreRefusedWithTheirSuccessors) {
 }
 
 TEST(DecodeFrameSpec, NothingIsEveryDefault) {
-  for (const char* text : {"", " \r\n\t", "{}", " { } "}) {
+  for (const char* text : {"", "{}", " { } "}) {
     const Result<FrameSpec> spec = decodeFrameSpec(text);
     ASSERT_TRUE(spec) << text;
     EXPECT_EQ(*spec, FrameSpec{}) << text;

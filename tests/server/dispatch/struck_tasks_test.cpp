@@ -85,6 +85,7 @@ TEST_F(StruckTasks, WhatHasSentEventsIsTriedAgainAndSendsNoneTwice) {
   std::vector<std::string> events;
   Task evaluation = frame("fault-events");
   evaluation.order.kind = OrderKind::evaluation;
+  evaluation.order.mediaType = kEventStream;
   const TaskResult result =
       dispatcher->run(evaluation, kStays, [&](const OrderEvent& event) { events.push_back(event.data); });
   EXPECT_EQ(problemOf(result), "internal");

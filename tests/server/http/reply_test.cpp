@@ -74,9 +74,11 @@ TEST(ProblemReply, AnIncompleteRequestHasStatusesOfItsOwn) {
   EXPECT_EQ(statusOf(ProblemCode::malformed, RequestPart::head), 400);
 }
 
-TEST(ProblemReply, SaysWhenToRetryOnlyToTheBusy) {
-  const HttpReply reply = problemReply({{ProblemCode::notFound, "", "No.", "", ""}}, "x", {.retryAfterSeconds = 7});
-  EXPECT_EQ(reply.headers.size(), 1u);
+TEST(ProblemReply, OfOtherStatusesSaysWhenToRetryWhereThatIsKnown) {
+  const Problems problems{{ProblemCode::internal, "", "No.", "", ""}};
+  EXPECT_EQ(problemReply(problems, "x").headers.size(), 1u);
+  EXPECT_EQ(problemReply(problems, "x", {.retryAfterSeconds = 7}).headers.back(),
+            (std::pair<std::string, std::string>("Retry-After", "7")));
 }
 
 TEST(ReplyText, OmitsTheLengthWhereThereIsNone) {
