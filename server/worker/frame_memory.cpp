@@ -37,8 +37,8 @@ struct EncodingBytes {
 
 constexpr std::array kEncodingBytes{
     EncodingBytes{ImageFormat::png, 1, 0}, //
-    EncodingBytes{ImageFormat::exr, 3, 0}, // all views side by side; a file that grows is copied
-    EncodingBytes{ImageFormat::npy, 2, 1}, // with alpha, the colors that it has multiplied
+    EncodingBytes{ImageFormat::exr, 2, 0}, // all views side by side; of halfs, a file that is copied as it grows
+    EncodingBytes{ImageFormat::npy, 1, 1}, // with alpha, the colors that it has multiplied
     EncodingBytes{ImageFormat::npz, 1, 2}, // and the array that goes into the ZIP
     EncodingBytes{ImageFormat::tiff, 1, 1}, EncodingBytes{ImageFormat::jpeg, 1, 0},
     EncodingBytes{ImageFormat::webp, 1, 2}, // as YUV, and what is found about its blocks
@@ -123,7 +123,7 @@ std::size_t volumeBytes(const FrameSpec& spec, const SceneSummary& scene, std::s
 
 std::size_t frameBytes(const FrameSpec& spec, const SceneSummary& scene, DeviceKind device, bool asJson) {
   constexpr std::size_t kTriangle = 12;   ///< of a pixel: a number, and what it stands for
-  constexpr std::size_t kCaster = 20;     ///< of a pixel: its triangle, and the node that shadows it
+  constexpr std::size_t kCaster = 44;     ///< of a pixel: its triangle, what rays hit, and the node that shadows it
   constexpr std::size_t kPredicted = 120; ///< of a pixel: what a map's texel covers there, and edges
   constexpr std::size_t kTextCopies = 6;  ///< base64 is a third longer: as text, in the document, and written
   const DeviceBytes& own = kDeviceBytes[static_cast<std::size_t>(device)];
@@ -151,7 +151,8 @@ std::size_t frameBytes(const FrameSpec& spec, const SceneSummary& scene, DeviceK
   if (showsAny(spec, ViewSource::geometry)) drawn += pixels * kTriangle;
   if (std::ranges::find(spec.views, View::casterIds) != spec.views.end()) drawn += pixels * kCaster;
   if (spec.debug.predictEdges) drawn += pixels * kPredicted;
-  const std::size_t files = encoding.files + (asJson ? kTextCopies : 0);
+  const bool fullExr = spec.output.format == ImageFormat::exr && spec.output.exrPixelType == ExrPixelType::float_;
+  const std::size_t files = encoding.files + (fullExr ? 1 : 0) + (asJson ? kTextCopies : 0);
   const std::size_t encoded = samples * own.sample + pictures * files + largest * encoding.work; // samples may be kept
   return kFixed + pictures + std::max(drawn, encoded);
 }

@@ -105,7 +105,7 @@ class Estimates(unittest.TestCase):
     def peak(self, spec, accept, volumes):
         """What a worker that has drawn nothing but a small frame takes beside for this one."""
         with Server("--device", "cpu", "--workers", "1", "--tile-cache-bytes", "0", "--request-timeout", "300") as server:
-            scene = upload(server, volumes=volumes)
+            scene = upload(server, "city", volumes=volumes)
             small = {name: value for name, value in spec.items() if name not in ("volumes", "atlas")}
             self.assertEqual(server.frame(scene, small | {"width": 64, "height": 36}, accept).status, 200)
             worker = max(workers_of(server), key=lambda pid: memory_of(pid)[0])
@@ -120,7 +120,7 @@ class Estimates(unittest.TestCase):
 
     def test_a_frame_takes_at_most_what_is_said_and_at_least_half(self):  # F12
         with Server("--device", "cpu", "--workers", "1", "--frame-memory-bytes", "1MB") as said:
-            scenes = {count: upload(said, volumes=count) for count in (0, 1, 2)}
+            scenes = {count: upload(said, "city", volumes=count) for count in (0, 1, 2)}
             for spec, accept in CASES:
                 with self.subTest(spec=spec, accept=accept):
                     volumes = len(spec.get("volumes", []))
