@@ -4,6 +4,7 @@ import http.client
 import json
 import os
 import random
+import select
 import shutil
 import subprocess
 import threading
@@ -77,7 +78,8 @@ def check(tally, client, status, headers, body, seconds=None):
 
 
 class Client(threading.Thread):
-    """Repeats `step` until `stop`; a connection that ends within a request is noted as broken."""
+    """Repeats `step` until `stop`; a connection that ends within a request is noted as broken. One that was closed while it
+    was idle, as a server may do, is opened again."""
 
     def __init__(self, name, tally, stop, period, address="127.0.0.1"):
         super().__init__(name=name, daemon=True)
@@ -88,6 +90,13 @@ class Client(threading.Thread):
         if self.connection is None:
             self.connection = http.client.HTTPConnection("127.0.0.1", PORT, timeout=40, source_address=(self.address, 0))
         return self.connection
+
+    def ask(self, *request):
+        """As ask(), on the connection that is kept."""
+        if self.connection and self.connection.sock and select.select([self.connection.sock], [], [], 0)[0]:
+            self.tally.note(self.name, "closed while idle")
+            self.connection = None
+        return ask(self.connect(), *request)
 
     def run(self):
         due = time.monotonic()
@@ -112,8 +121,8 @@ class Frames(Client):
         spec = {"width": 320, "height": 180,
                 "lights": [{"sun": {"azimuthDegrees": random.uniform(0, 360), "elevationDegrees": 40}}]}  # fmt: skip
         begun = time.monotonic()
-        reply = ask(self.connect(), "POST", f"/v1/scenes/{self.scene}/frames", json.dumps(spec),
-                    {"Content-Type": "application/json", "Accept": "image/png"})  # fmt: skip
+        reply = self.ask("POST", f"/v1/scenes/{self.scene}/frames", json.dumps(spec),
+                         {"Content-Type": "application/json", "Accept": "image/png"})  # fmt: skip
         check(self.tally, "frames", *reply, time.monotonic() - begun)
 
 
@@ -127,7 +136,7 @@ class Uploads(Client):
     def step(self):
         text = json.loads(self.model)
         text["extras"] = {"number": random.getrandbits(64)}
-        reply = ask(self.connect(), "POST", "/v1/scenes", json.dumps(text), {"Content-Type": "model/gltf+json"})
+        reply = self.ask("POST", "/v1/scenes", json.dumps(text), {"Content-Type": "model/gltf+json"})
         if check(self.tally, "uploads", *reply):
             self.accepted.append(json.loads(reply[2])["id"])
 
