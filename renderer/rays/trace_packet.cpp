@@ -75,7 +75,7 @@ void occludeParts(void (*trace)(const int*, RTCScene, RTCIntersectContext*, Rays
 }
 
 /// Embree asserts that rays are finite and begin no farther off than this. One that begins beyond it would meet nothing
-/// that its direction, in floats, could tell from what lies beside it.
+/// that its direction, in floats, distinguishes from what lies beside it.
 constexpr float kFarthest = 1.8e18f;
 
 /// The active lanes whose rays may be traced. The others meet nothing.

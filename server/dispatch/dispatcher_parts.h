@@ -50,7 +50,7 @@ struct Dispatcher::Ticket {
   /// takes too much memory, so that there is an end to that, too.
   bool mayBeTriedAgain() const { return ends - kills < 2 && ends < 5; }
 
-  /// False for what an earlier worker has sent already. Frames of sequences are told from their start again.
+  /// False for what an earlier worker has sent already. Of frames of sequences all is sent again.
   bool isNews(const OrderEvent& event) {
     if (task.order.kind == OrderKind::sequenceFrame) return true;
     Heard& of = heard[event.name];

@@ -11,7 +11,7 @@
 
 namespace gnomon {
 
-/// What ends workers: requests that ended two are not tried a third time for a while, whoever sends them, and a client
+/// What ends workers: requests that ended two are not tried a third time for a while, from any client, and a client
 /// whose requests end several has none tried for the rest of a minute. Of each the last kMost are known. For one thread
 /// at a time.
 class StrikeList {

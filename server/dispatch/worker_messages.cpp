@@ -85,7 +85,7 @@ bool Dispatcher::takeEvent(Slot& slot, const OrderEvent& event, Lock& lock) {
   const TicketPtr ticket = found->second;
   const Order order = ticket->task.order;
   Announced announced = ticket->announced;
-  if (!isFitting(slot, lock, [&] { return mayTell(order, event, announced); })) return false;
+  if (!isFitting(slot, lock, [&] { return maySend(order, event, announced); })) return false;
   ticket->announced = announced;
   if (ticket->calledOff) return true; // no caller takes it
   if (!ticket->isNews(event)) return true;

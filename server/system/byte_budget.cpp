@@ -106,7 +106,7 @@ std::size_t ByteBudget::heldBeside(const ByteLease* own, const ClientIdentity& c
   return held;
 }
 
-/// One that asks for more than its share of everything waits for nobody but itself.
+/// A client that asks for more than its share of everything does not count as waiting for others.
 void ByteBudget::noteWaiting(const ByteLease& lease, std::size_t bytes, Clock::time_point now) {
   constexpr std::chrono::seconds kComing{2}; // a client that was asked to come again is there by then
   const ClientIdentity& client = lease.holder_.client;

@@ -55,7 +55,7 @@ std::string resultType(const Order& order) {
   return order.mediaType;
 }
 
-bool mayTell(const Order& order, const OrderEvent& event, Announced& announced) {
+bool maySend(const Order& order, const OrderEvent& event, Announced& announced) {
   const bool isKnown = std::any_of(kEvents.begin(), kEvents.end(), [&](const EventRow& row) {
     return row.kind == order.kind && row.name == event.name;
   });

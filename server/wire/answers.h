@@ -19,7 +19,7 @@ struct Announced {
 std::string resultType(const Order& order);
 
 /// Whether the order has such an event at this time; `announced` then holds what it announces.
-bool mayTell(const Order& order, const OrderEvent& event, Announced& announced);
+bool maySend(const Order& order, const OrderEvent& event, Announced& announced);
 
 /// Whether it can be the order's outcome: problems, or a result of the order's type that is what it says: a scene's
 /// summary, JSON of one line, pictures of the bytes that were announced. `body`: what came with it.

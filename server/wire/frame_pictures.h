@@ -18,8 +18,7 @@ namespace gnomon {
 /// that is not alone or does not have the bytes of its size.
 std::optional<std::size_t> bytesOf(const std::vector<PictureNews>& pictures);
 
-/// The pictures of a frame with their bytes, which fit each other: whoever described them, and wherever the bytes are
-/// from.
+/// The pictures of a frame with their bytes, which fit each other, from a worker as from a store.
 class FramePictures {
  public:
   FramePictures() = default; ///< none

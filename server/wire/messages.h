@@ -168,6 +168,6 @@ std::optional<ToFront> readToFront(std::string_view text);
 
 /// Whether these can be times of a frame's stages: names as a header may hold them, and at most a few.
 bool areStages(const std::vector<StageTime>& stages);
-inline constexpr double kMostMilliseconds = 1e12; ///< of a time that is told
+inline constexpr double kMostMilliseconds = 1e12; ///< of a time in a message
 
 } // namespace gnomon

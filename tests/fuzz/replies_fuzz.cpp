@@ -132,7 +132,7 @@ void talk(std::uint8_t choice, std::string_view lines) {
     lines = lines.substr(std::min(end + 1, lines.size()));
     if (!message) return; // such a worker is replaced
     if (message->event) {
-      if (!mayTell(order, *message->event, announced)) return;
+      if (!maySend(order, *message->event, announced)) return;
       const std::string text = eventText(message->event->name, message->event->data);
       fuzz::require(std::count(text.begin(), text.end(), '\n') == 3, "an event is one");
       const auto news = order.kind == OrderKind::sequenceFrame ? readSequenceNews(message->event->data) : std::nullopt;

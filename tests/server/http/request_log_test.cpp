@@ -55,16 +55,16 @@ TEST(RequestLog, KeepsTheClientsSentenceApartFromTheCause) {
 }
 
 TEST(RequestLog, SaysWhyAReplyWasNotSentWhole) {
-  const auto told = [](Delivery delivery) {
+  const auto logged = [](Delivery delivery) {
     RequestRecord record;
     record.delivery = delivery;
     return nlohmann::json::parse(requestLine(record, {}, 1)).value("undelivered", "nothing");
   };
-  EXPECT_EQ(told(Delivery::whole), "nothing");
-  EXPECT_EQ(told(Delivery::clientLeft), "clientLeft");
-  EXPECT_EQ(told(Delivery::tooSlow), "tooSlow");
-  EXPECT_EQ(told(Delivery::othersWaited), "othersWaited");
-  EXPECT_EQ(told(Delivery::shutdown), "shutdown");
+  EXPECT_EQ(logged(Delivery::whole), "nothing");
+  EXPECT_EQ(logged(Delivery::clientLeft), "clientLeft");
+  EXPECT_EQ(logged(Delivery::tooSlow), "tooSlow");
+  EXPECT_EQ(logged(Delivery::othersWaited), "othersWaited");
+  EXPECT_EQ(logged(Delivery::shutdown), "shutdown");
 }
 
 const std::string kTrace = "0af7651916cd43dd8448eb211c80319c";

@@ -20,9 +20,9 @@ bool ends(const Order& order, std::optional<SharedBytes> body, const Announced& 
   return mayEnd(order, Outcome{.number = 1, .contentType = resultType(order)}, body, announced);
 }
 
-bool tells(const Order& order, const std::string& name, const std::string& data = "{}") {
+bool mayBeSent(const Order& order, const std::string& name, const std::string& data = "{}") {
   Announced announced;
-  return mayTell(order, {1, name, data}, announced);
+  return maySend(order, {1, name, data}, announced);
 }
 
 std::string summaryOf(const std::string& id) {
@@ -70,15 +70,15 @@ TEST(Answers, ABakeOfEventsHasNoBody) {
 
 TEST(Answers, EventsAreThoseOfTheirOrder) {
   const Order evaluation = orderOf(OrderKind::evaluation, "text/event-stream");
-  EXPECT_TRUE(tells(evaluation, "progress") && tells(evaluation, "row"));
+  EXPECT_TRUE(mayBeSent(evaluation, "progress") && mayBeSent(evaluation, "row"));
   for (const char* name : {"", "result", "problem", "news", "progress\n\nevent: problem"})
-    EXPECT_FALSE(tells(evaluation, name)) << name;
-  EXPECT_FALSE(tells(orderOf(OrderKind::evaluation, "application/json"), "progress")) << "no events were asked for";
-  EXPECT_FALSE(tells(orderOf(OrderKind::frame, "image/png"), "progress"));
-  EXPECT_TRUE(tells(orderOf(OrderKind::bake, "text/event-stream"), "result"));
+    EXPECT_FALSE(mayBeSent(evaluation, name)) << name;
+  EXPECT_FALSE(mayBeSent(orderOf(OrderKind::evaluation, "application/json"), "progress")) << "no events were asked for";
+  EXPECT_FALSE(mayBeSent(orderOf(OrderKind::frame, "image/png"), "progress"));
+  EXPECT_TRUE(mayBeSent(orderOf(OrderKind::bake, "text/event-stream"), "result"));
   const Order frame = orderOf(OrderKind::sequenceFrame);
-  EXPECT_TRUE(tells(frame, "news", textOf(SequenceNews{.drawn = DrawnNews{}})));
-  EXPECT_FALSE(tells(frame, "news", "{}"));
+  EXPECT_TRUE(mayBeSent(frame, "news", textOf(SequenceNews{.drawn = DrawnNews{}})));
+  EXPECT_FALSE(mayBeSent(frame, "news", "{}"));
 }
 
 TEST(Answers, AFrameOfASequenceHasTheBytesThatItAnnounced) {
@@ -86,7 +86,7 @@ TEST(Answers, AFrameOfASequenceHasTheBytesThatItAnnounced) {
   Announced announced;
   EXPECT_FALSE(ends(frame, "12345", announced)) << "nothing was announced";
   const SequenceNews news{.pictures = {{"color", "image/png", 5}}};
-  ASSERT_TRUE(mayTell(frame, {1, std::string(kSequenceNews), textOf(news)}, announced));
+  ASSERT_TRUE(maySend(frame, {1, std::string(kSequenceNews), textOf(news)}, announced));
   EXPECT_TRUE(ends(frame, "12345", announced));
   EXPECT_FALSE(ends(frame, "1234", announced));
   EXPECT_FALSE(ends(frame, "123456", announced));
