@@ -1,9 +1,7 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <ranges>
 #include <span>
 
 #include "protocol/spec/traits.h"
@@ -20,10 +18,14 @@ namespace gnomon::cpu {
 /// Views of numbers, each of which data_view draws.
 inline constexpr std::array kDataViews{View::depth,       View::normal, View::shadow,    View::texelDensity,
                                        View::blendWeight, View::bias,   View::casterIds, View::albedo};
-static_assert(std::ranges::equal(kDataViews, kViewTraits | std::views::filter([](const ViewTraits& view) {
-                                               return view.source == ViewSource::data;
-                                             }),
-                                 {}, {}, &ViewTraits::view));
+static_assert([] {
+  std::size_t found = 0;
+  for (const ViewTraits& view : kViewTraits) {
+    if (view.source == ViewSource::data && (found == kDataViews.size() || kDataViews[found++] != view.view))
+      return false;
+  }
+  return found == kDataViews.size();
+}());
 
 /// What a view is made from. All of it outlives the call.
 struct ShowJob {
