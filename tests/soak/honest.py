@@ -154,6 +154,7 @@ class SteadyReader(Client):
     def step(self):
         side = int((self.rate * self.SECONDS / 12) ** 0.5)  # three floats a pixel
         spec = {"width": side, "height": side, "output": {"format": "exr", "exrPixelType": "float", "exrCompression": "none"}}
+        self.connection = None  # one that was idle may be closed
         connection = self.connect()
         connection.request("POST", f"/v1/scenes/{self.scene}/frames", json.dumps(spec), {"Content-Type": "application/json"})
         reply = connection.getresponse()
