@@ -1,4 +1,4 @@
-// What every queue of jobs does alike.
+// What holds for every queue of jobs.
 #include "server/jobs/job_queue.h"
 
 #include <gtest/gtest.h>
@@ -15,49 +15,6 @@ namespace gnomon {
 namespace {
 
 using namespace std::chrono_literals;
-
-class JobQueueTest : public ::testing::TestWithParam<TestedQueue> {
- protected:
-  void SetUp() override {
-    GetParam().clear();
-    open({});
-  }
-
-  void open(const JobLimits& limits) {
-    limits_ = limits;
-    queue_ = GetParam().open(limits);
-    if (!queue_) GTEST_SKIP() << "redis-server is not installed.";
-  }
-
-  void put(const NewJob& job) { ASSERT_TRUE(queue_->put(job)); }
-
-  /// A frame that must be there.
-  FrameTurn take() {
-    auto turn = queue_->take(5s);
-    EXPECT_TRUE(turn && *turn);
-    return turn && *turn ? **turn : FrameTurn();
-  }
-  bool isIdle() {
-    const auto turn = queue_->take(0ms);
-    return turn && !*turn;
-  }
-  void finish(const FrameTurn& turn) {
-    ASSERT_TRUE(queue_->finish(turn, drawnFrame(turn.job + std::to_string(turn.index))));
-  }
-  JobProgress progress(const std::string& job) {
-    const auto found = queue_->find(job);
-    EXPECT_TRUE(found && *found);
-    return found && *found ? **found : JobProgress();
-  }
-  std::string picture(const std::string& job, int index) {
-    const auto found = queue_->frame(job, index);
-    EXPECT_TRUE(found);
-    return found && *found ? std::string((*found)->pictures.bytes()) : "none";
-  }
-
-  JobLimits limits_;
-  std::unique_ptr<JobQueue> queue_;
-};
 
 TEST_P(JobQueueTest, ItsSizeIsThatOfItsJobs) {
   const auto expect = [&](std::size_t jobs, std::size_t framesLeft, std::uint64_t bytes) {
@@ -170,17 +127,6 @@ TEST_P(JobQueueTest, TheSecondToFinishAFrameChangesNothing) {
   EXPECT_TRUE(isIdle()) << "the next is queued once";
 }
 
-TEST_P(JobQueueTest, ClientsTakeTurnsAndSoDoTheirJobs) {
-  put(jobOfFrames("long", 6, "ann"));
-  put(jobOfFrames("other", 6, "ann"));
-  put(jobOfFrames("short", 3, "bob"));
-  std::map<std::string, int> taken;
-  for (int i = 0; i < 6; ++i) ++taken[take().job];
-  EXPECT_EQ(taken["short"], 3) << "bob has every second turn";
-  EXPECT_GE(taken["long"], 1);
-  EXPECT_GE(taken["other"], 1);
-}
-
 TEST_P(JobQueueTest, AFailedFrameEndsItsJobAlone) {
   put(jobOfFrames("bad", 3));
   put(jobOfFrames("good", 1));
@@ -260,69 +206,6 @@ TEST_P(JobQueueTest, AFrameThatNobodySurvivesFailsItsJob) {
   ASSERT_EQ(failed.problems.size(), 1u);
   EXPECT_EQ(failed.problems[0].code, ProblemCode::internal);
   EXPECT_EQ(failed.problems[0].actual, "3 times");
-}
-
-TEST_P(JobQueueTest, AClientHasOnlySoManyJobs) {
-  open({.jobsOfClient = 2});
-  put(jobOfFrames("a", 1));
-  put(jobOfFrames("b", 1));
-  const auto refused = queue_->put(jobOfFrames("c", 1));
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.problems()[0].code, ProblemCode::busy);
-  EXPECT_EQ(refused.problems()[0].limit, "2 jobs");
-  EXPECT_FALSE(queue_->find("c")->has_value());
-  put(jobOfFrames("d", 1, "bob"));
-  EXPECT_TRUE(*queue_->remove("a"));
-  put(jobOfFrames("c", 1));
-}
-
-TEST_P(JobQueueTest, AClientHasHalfOfTheJobsThatOthersLeave) {
-  open({.jobs = 8});
-  for (int i = 0; i < 4; ++i) put(jobOfFrames("ann" + std::to_string(i), 1));
-  const auto refused = queue_->put(jobOfFrames("ann4", 1));
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.problems()[0].code, ProblemCode::busy);
-  EXPECT_EQ(refused.problems()[0].limit, "8 jobs");
-  put(jobOfFrames("bob0", 1, "bob"));
-  put(jobOfFrames("bob1", 1, "bob"));
-  EXPECT_FALSE(queue_->put(jobOfFrames("bob2", 1, "bob")));
-  EXPECT_TRUE(*queue_->remove("ann0"));
-  EXPECT_TRUE(*queue_->remove("ann1"));
-  EXPECT_TRUE(queue_->put(jobOfFrames("bob2", 1, "bob"))) << "what was removed is free again";
-}
-
-TEST_P(JobQueueTest, TheNetworksOfOneSiteLeaveJobsToOthersAndTakeTurnsWithThem) {
-  open({.jobs = 16});
-  int kept = 0;
-  for (int i = 0; i < 20; ++i) {
-    NewJob job = jobOfFrames("of site " + std::to_string(i), 1);
-    job.client = {"2001:db8:0:" + std::to_string(i) + "::/64", "2001:db8::/48"};
-    kept += queue_->put(job) ? 1 : 0;
-  }
-  EXPECT_EQ(kept, 12);
-  put(jobOfFrames("modest", 1, "192.0.2.9"));
-  const FrameTurn first = take();
-  EXPECT_EQ(first.client.site, "2001:db8::/48");
-  EXPECT_EQ(take().job, "modest") << "it does not wait for all of theirs";
-}
-
-TEST_P(JobQueueTest, WhatHasNoRoomIsRefusedOrFails) {
-  open({.bytes = 100});
-  NewJob large = jobOfFrames("large", 1);
-  large.request = std::string(101, ' ');
-  const auto refused = queue_->put(large);
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.problems()[0].code, ProblemCode::insufficientStorage);
-  put(jobOfFrames("job", 2));
-  ASSERT_TRUE(queue_->finish(take(), drawnFrame(std::string(60, 'a'))));
-  ASSERT_TRUE(queue_->finish(take(), drawnFrame(std::string(60, 'b'))));
-  EXPECT_EQ(progress("job").state, JobState::failed);
-  EXPECT_EQ(progress("job").problems.at(0).code, ProblemCode::insufficientStorage);
-  EXPECT_EQ(progress("job").done, 1);
-  EXPECT_TRUE(*queue_->remove("job"));
-  put(jobOfFrames("after", 1));
-  ASSERT_TRUE(queue_->finish(take(), drawnFrame(std::string(90, 'c'))));
-  EXPECT_EQ(progress("after").state, JobState::done) << "what was removed made room";
 }
 
 TEST_P(JobQueueTest, AListHasTheJobsOfItsKeyTheNewestFirst) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <gtest/gtest.h>
 #include <memory>
@@ -49,5 +50,49 @@ inline JobFrame drawnFrame(const std::string& picture, Carried carried = {}) {
                    .pictures = pictures},
           .pictures = *FramePictures::of(pictures, picture)};
 }
+
+/// A test over each of them, in a queue that is empty.
+class JobQueueTest : public ::testing::TestWithParam<TestedQueue> {
+ protected:
+  void SetUp() override {
+    GetParam().clear();
+    open({});
+  }
+
+  void open(const JobLimits& limits) {
+    limits_ = limits;
+    queue_ = GetParam().open(limits);
+    if (!queue_) GTEST_SKIP() << "redis-server is not installed.";
+  }
+
+  void put(const NewJob& job) { ASSERT_TRUE(queue_->put(job)); }
+
+  /// A frame that must be there.
+  FrameTurn take() {
+    auto turn = queue_->take(std::chrono::seconds(5));
+    EXPECT_TRUE(turn && *turn);
+    return turn && *turn ? **turn : FrameTurn();
+  }
+  bool isIdle() {
+    const auto turn = queue_->take(std::chrono::milliseconds(0));
+    return turn && !*turn;
+  }
+  void finish(const FrameTurn& turn) {
+    ASSERT_TRUE(queue_->finish(turn, drawnFrame(turn.job + std::to_string(turn.index))));
+  }
+  JobProgress progress(const std::string& job) {
+    const auto found = queue_->find(job);
+    EXPECT_TRUE(found && *found);
+    return found && *found ? **found : JobProgress();
+  }
+  std::string picture(const std::string& job, int index) {
+    const auto found = queue_->frame(job, index);
+    EXPECT_TRUE(found);
+    return found && *found ? std::string((*found)->pictures.bytes()) : "none";
+  }
+
+  JobLimits limits_;
+  std::unique_ptr<JobQueue> queue_;
+};
 
 } // namespace gnomon
