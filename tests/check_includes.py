@@ -4,7 +4,7 @@
 usage: check_includes.py [ROOT]      prints one line a fault; exit status 1 if there is any
 
 Who may include whom, one way:
-  protocol/base <- protocol <- renderer/core <- renderer/image <- renderer/scene; core <- renderer/{shadow,volume,video};
+  protocol/base <- protocol <- renderer/core <- renderer/image <- renderer/environment <- renderer/scene; core <- renderer/{shadow,volume,video};
   scene <- renderer/rays <- renderer/bake, renderer/reference; scene, shadow <- renderer/prepare <- renderer/resolve;
   bake, prepare <- renderer/techniques;
   bake, resolve, volume <- renderer/device <- renderer/frame <- renderer/evaluation, renderer/export
@@ -23,7 +23,7 @@ from pathlib import Path
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^">]+)[">]')
 ROOMS = ("protocol", "renderer", "server", "clients")
 
-VALUES = ["protocol", "renderer/core", "renderer/image", "renderer/scene", "renderer/shadow"]
+VALUES = ["protocol", "renderer/core", "renderer/image", "renderer/environment", "renderer/scene", "renderer/shadow"]
 PREPARED = VALUES + ["renderer/shaders/shared", "renderer/prepare"]
 SETTLED = PREPARED + ["renderer/rays", "renderer/resolve"]
 DEVICE = SETTLED + ["renderer/bake", "renderer/volume", "renderer/device"]
@@ -39,7 +39,8 @@ MAY_INCLUDE = {
     "protocol": ["protocol"],
     "renderer/core": ["protocol", "renderer/core"],
     "renderer/image": ["protocol", "renderer/core", "renderer/image"],
-    "renderer/scene": ["protocol", "renderer/core", "renderer/image", "renderer/scene"],
+    "renderer/environment": ["protocol", "renderer/core", "renderer/image", "renderer/shaders/shared", "renderer/environment"],
+    "renderer/scene": ["protocol", "renderer/core", "renderer/image", "renderer/environment", "renderer/scene"],
     "renderer/shadow": ["protocol", "renderer/core", "renderer/shadow"],
     "renderer/volume": ["protocol", "renderer/core", "renderer/volume"],
     "renderer/rays": ["protocol", "renderer/core", "renderer/image", "renderer/scene", "renderer/shaders/shared", "renderer/rays"],

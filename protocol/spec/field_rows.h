@@ -3,6 +3,7 @@
 #include "protocol/fields/fields.h"
 #include "protocol/fields/ranges.h"
 #include "protocol/spec/enum_rows.h"
+#include "protocol/spec/environment_rows.h"
 #include "protocol/spec/frame_spec.h"
 #include "protocol/spec/scene_options.h"
 #include "protocol/spec/scene_rows.h"
@@ -117,6 +118,8 @@ inline constexpr auto kRows<FrameSpec> = rows(
     field<&FrameSpec::animation>("The pose of an animated scene; absent = the file's rest pose."),
     field<&FrameSpec::ambient>(
         "Light from the surroundings: a neutral studio, brighter above than at the sides and below."),
+    field<&FrameSpec::environment>("Light from all around, which surfaces reflect and the scene may shade."),
+    field<&FrameSpec::ground>("A plane under the scene that takes its shadows; absent = none."),
     field<&FrameSpec::background>("What is shown where there is no surface."),
     field<&FrameSpec::exposure>("Light is multiplied by 2 to this power before tone mapping; each step up doubles it.",
                                 {.unit = "stops", .range = {-32, 32}}),

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "protocol/spec/environment_options.h"
 #include "protocol/spec/output_options.h"
 #include "protocol/spec/scene_options.h"
 #include "protocol/spec/shadow_options.h"
@@ -73,6 +74,8 @@ struct FrameSpec {
   std::optional<std::string> materialVariant{};
   std::optional<AnimationMoment> animation{};
   Ambient ambient;
+  EnvironmentOptions environment;
+  std::optional<Ground> ground{};
   Background background;
   double exposure = 0;
   ToneMapping toneMapping = ToneMapping::aces;

@@ -11,6 +11,7 @@
 #include "protocol/report/frame_report.h"
 #include "protocol/report/replies.h"
 #include "renderer/bake/baked_light.h"
+#include "renderer/environment/environment.h"
 #include "renderer/image/image.h"
 #include "renderer/prepare/lit_light.h"
 #include "renderer/rays/traced_scene.h"
@@ -63,8 +64,9 @@ struct FrameWork {
   std::function<Result<std::shared_ptr<const TracedScene>>()> traced; ///< asked where rays are needed
   /// What was baked for a light whose technique is baked; asked after the survey.
   std::function<std::shared_ptr<const BakedLight>(int light)> baked;
-  const FrameVolumes* volumes = nullptr; ///< filled when the survey begins; null or empty = none
-  std::vector<std::uint32_t> parts{};    ///< what the survey reports separately: receiver groups, a bit each
+  const FrameVolumes* volumes = nullptr;         ///< filled when the survey begins; null or empty = none
+  const FrameEnvironment* environment = nullptr; ///< filled when the survey begins; null = the studio
+  std::vector<std::uint32_t> parts{};            ///< what the survey reports separately: receiver groups, a bit each
 };
 
 /// Whether tiles that earlier frames drew may serve a frame. Its pictures are the same either way; its times are not.

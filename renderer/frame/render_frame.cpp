@@ -36,7 +36,7 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
 
   MadeVolumes made;
   const auto begun = device.begin({scene, resolved, layered, needsEdges(resolved), tracedScene, bakedLight,
-                                   &made.volumes, receiverParts(resolved)});
+                                   &made.volumes, nullptr, receiverParts(resolved)});
   if (!begun) return begun.problems();
   FrameDrawing& drawing = **begun;
 

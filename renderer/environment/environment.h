@@ -1,0 +1,25 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+
+#include "renderer/environment/environment_map.h"
+
+/// An environment as frames are lit by it.
+namespace gnomon {
+
+/// Made once from a file or a sky, shared by frames. Immutable.
+struct Environment {
+  EnvironmentMap map;            ///< without its sun
+  std::optional<FoundSun> sun{}; ///< what was taken out of the map
+};
+
+/// The environment of one frame.
+struct FrameEnvironment {
+  std::shared_ptr<const Environment> environment{}; ///< null = the studio of `ambient`
+  glm::dmat3 mapFromWorld{1};                       ///< a turn about the vertical axis
+  double intensity = 1;                             ///< radiance is multiplied by it
+};
+
+} // namespace gnomon
