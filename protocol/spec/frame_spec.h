@@ -74,7 +74,7 @@ struct FrameSpec {
   std::optional<std::string> materialVariant{};
   std::optional<AnimationMoment> animation{};
   Ambient ambient;
-  EnvironmentOptions environment = EnvironmentOptions(); // with {} GCC 12 warns of uninitialized memory
+  EnvironmentOptions environment;
   std::optional<Ground> ground{};
   Background background;
   double exposure = 0;
