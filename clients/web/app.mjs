@@ -28,6 +28,8 @@ import { draftSpec, fullSpec, pictureSize } from './spec.mjs';
 import { attachOrbit } from './stage.mjs';
 import { createStore } from './store.mjs';
 import { createSunPanel } from './sun_panel.mjs';
+import { isPanorama, kFirstGround, litByFile } from './surroundings_math.mjs';
+import { createSurroundingsPanel } from './surroundings_panel.mjs';
 import { createTargetPanel } from './target_panel.mjs';
 import { createTimings } from './timings.mjs';
 import { createViewChoice } from './view_choice.mjs';
@@ -168,17 +170,21 @@ const scenePanel = createScenePanel({
 });
 byId('empty-upload').addEventListener('click', () => byId('files').click());
 
-// What a link says of its scene stays with it, also with the file of another volume; another scene starts with its own
-// camera and light, where it has any, and with nothing of the one before.
-function showScene(summary, added) {
+// What a link says of its scene stays with it, also with a file that was added; another scene starts with its own
+// camera and light, where it has any, and with nothing of the one before. The first one of all stands on a ground.
+function showScene(summary, { added, panorama }) {
   problems.clear();
   const { sceneId, spec } = store.state;
   const same = Boolean(added) || sceneId === summary.id;
-  const next = same ? { ...spec } : withoutScene(spec);
+  let next = same ? { ...spec } : withoutScene(spec);
+  if (!store.state.summary && !same) next.ground ??= kFirstGround;
   next.camera ??= summary.cameras.length ? { node: cameraName(summary.cameras[0]) } : { orbit: kWholeScene };
   if (!next.lights && !summary.lights.length) next.lights = lightsWithSun({ spec: {}, report: null }, {});
-  if (added) next.volumes = withFile(store.state, added);
-  store.update({ sceneId: summary.id, summary, spec: next, report: null, cameraShown: null, freshVolume: Boolean(added) });
+  const picture = panorama ?? (added && isPanorama({ name: added }) ? added : null);
+  const grid = picture ? null : added;
+  if (grid) next.volumes = withFile(store.state, grid);
+  if (picture) next = litByFile({ spec: next }, picture);
+  store.update({ sceneId: summary.id, summary, spec: next, report: null, cameraShown: null, freshVolume: Boolean(grid) });
 }
 
 byId('sun').append(createSunPanel(store), createLightsPanel(store));
@@ -191,6 +197,7 @@ const panels = {
   evaluation: createEvaluationPanel(store, { specOf: sharpSpec, problems, announce }),
   motion: createMotionPanel(store),
   nodes: createNodesPanel(store),
+  surroundings: createSurroundingsPanel(store, scenePanel.addFiles),
   target: createTargetPanel(store),
   volume: createVolumePanel(store, scenePanel.addFiles),
 };

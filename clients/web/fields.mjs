@@ -4,6 +4,7 @@
 // gives it a row of its own; `keeps` has no default to go back to; `value(store)` is what is shown where that is not the
 // field itself; `log` makes a slider's steps equal ratios. `panel` is what else a section holds (app.mjs).
 
+import { kSurroundings } from './surroundings_fields.mjs';
 import { withFile } from './volume_math.mjs';
 
 const shadowed = (store) => store.effective('shadow.enabled') !== false;
@@ -85,6 +86,13 @@ const volumeFiles = ({ state }) => [['', 'None'], ...(state.summary?.volumeFiles
 const hasVolume = (store) => store.isSet('volumes.0.file');
 const hasBox = (store) => store.isSet('volumes.0.box'); // and not a matrix, or a node alone
 
+const kToneMappings = [
+  ['neutral', 'Neutral', 'Colors of surfaces stay, highlights alone are compressed'],
+  ['aces', 'ACES', 'A film-like curve'],
+  ['agx', 'AgX', 'Soft contrast, bright colors fade to white'],
+  ['none', 'None', 'Unchanged, clipped at 1'],
+];
+
 export const kSections = [
   {
     title: 'Light',
@@ -92,9 +100,10 @@ export const kSections = [
       { path: 'shadowLightPolicy', label: 'Shadows of', choices: [['all', 'All lights'], ['first', 'First sun']], says: 'Which lights cast shadows' },
       { path: 'ambient.intensity', label: 'Ambient', slider: [0, 3, 0.01], says: 'Light from the surroundings' },
       { path: 'exposure', label: 'Exposure', says: 'Stops', slider: [-6, 6, 0.1] },
-      { path: 'toneMapping', label: 'Tone', choices: [['aces', 'ACES'], ['none', 'None']] },
+      { path: 'toneMapping', label: 'Tone', choices: kToneMappings },
     ],
   },
+  kSurroundings,
   {
     title: 'Shadows',
     fields: [
