@@ -1,10 +1,12 @@
 #include "renderer/resolve/resolve_frame.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "protocol/base/text.h"
 #include "protocol/spec/frame_lights.h"
+#include "protocol/spec/settled_sun.h"
 #include "renderer/core/collect.h"
 #include "renderer/resolve/check_frame.h"
 #include "renderer/resolve/framing.h"
@@ -19,6 +21,17 @@ std::vector<Light> lightsOf(const SceneView& scene) {
   std::vector<Light> lights;
   for (const SceneLight& light : scene.lights) lights.push_back(light.light);
   return lights;
+}
+
+/// Of the suns by place and time that have set.
+void appendNightWarnings(const FrameSpec& asked, std::vector<std::string>& warnings) {
+  for (std::size_t i = 0; asked.lights && i < asked.lights->size(); ++i) {
+    const auto& sun = (*asked.lights)[i].sun;
+    if (!sun || !isNight(*sun)) continue;
+    warnings.push_back("Light " + std::to_string(i) + " gives no light: at its place and time the sun is " +
+                       std::to_string(std::llround(-*settledSun(*sun).elevationDegrees)) +
+                       " degrees below the horizon.");
+  }
 }
 
 std::string namesOf(const std::vector<std::string>& variants) {
@@ -76,6 +89,7 @@ ResolvedFrame resolveFrame(const Scene& scene, const FrameSpec& spec, ProblemLis
     frame.warnings.push_back("The scene has " + std::to_string(view.lights.size()) + " lights; only the first " +
                              std::to_string(frame.spec.lights->size()) + " light this frame.");
   }
+  appendNightWarnings(spec, frame.warnings);
   if (frame.scene < 0) return frame;
   frame.spec.scene = spec.scene.value_or(scene.defaultScene);
 

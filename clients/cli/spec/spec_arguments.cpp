@@ -118,12 +118,21 @@ std::string replaceEnvironment(Json& spec, const std::string& text) {
   return text == "sky" ? "/environment/sky" : isWord ? "/environment" : "/environment/file";
 }
 
+Json placeOf(const Sun& sun) {
+  Json place = Json::object();
+  if (sun.azimuthDegrees) place["azimuthDegrees"] = *sun.azimuthDegrees;
+  if (sun.elevationDegrees) place["elevationDegrees"] = *sun.elevationDegrees;
+  if (sun.latitudeDegrees) place["latitudeDegrees"] = *sun.latitudeDegrees;
+  if (sun.longitudeDegrees) place["longitudeDegrees"] = *sun.longitudeDegrees;
+  if (sun.time) place["time"] = *sun.time;
+  return place;
+}
+
 /// Gives the pointer of the sun that was turned.
-std::string turnSun(Json& spec, const std::array<double, 2>& sun) {
-  const Json place = {{"azimuthDegrees", sun[0]}, {"elevationDegrees", sun[1]}};
+std::string turnSun(Json& spec, const Sun& sun) {
   const Json::json_pointer sky("/environment/sky");
   if (spec.contains(sky) && spec[sky].is_object()) {
-    spec[sky]["sun"] = place;
+    spec[sky]["sun"] = placeOf(sun);
     return "/environment/sky/sun";
   }
   Json& lights = spec["lights"];
@@ -134,7 +143,7 @@ std::string turnSun(Json& spec, const std::array<double, 2>& sun) {
     light = lights.end() - 1;
   }
   light->erase("direction");
-  (*light)["sun"] = place;
+  (*light)["sun"] = placeOf(sun);
   return "/lights/" + std::to_string(light - lights.begin()) + "/sun";
 }
 
