@@ -118,7 +118,7 @@ std::string replaceEnvironment(Json& spec, const std::string& text) {
   return text == "sky" ? "/environment/sky" : isWord ? "/environment" : "/environment/file";
 }
 
-Json placeOf(const Sun& sun) {
+Json sunJson(const Sun& sun) {
   Json place = Json::object();
   if (sun.azimuthDegrees) place["azimuthDegrees"] = *sun.azimuthDegrees;
   if (sun.elevationDegrees) place["elevationDegrees"] = *sun.elevationDegrees;
@@ -132,7 +132,7 @@ Json placeOf(const Sun& sun) {
 std::string turnSun(Json& spec, const Sun& sun) {
   const Json::json_pointer sky("/environment/sky");
   if (spec.contains(sky) && spec[sky].is_object()) {
-    spec[sky]["sun"] = placeOf(sun);
+    spec[sky]["sun"] = sunJson(sun);
     return "/environment/sky/sun";
   }
   Json& lights = spec["lights"];
@@ -143,7 +143,7 @@ std::string turnSun(Json& spec, const Sun& sun) {
     light = lights.end() - 1;
   }
   light->erase("direction");
-  (*light)["sun"] = placeOf(sun);
+  (*light)["sun"] = sunJson(sun);
   return "/lights/" + std::to_string(light - lights.begin()) + "/sun";
 }
 
