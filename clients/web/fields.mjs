@@ -5,6 +5,7 @@
 // field itself; `log` makes a slider's steps equal ratios. `panel` is what else a section holds (app.mjs).
 
 import { kSurroundings } from './surroundings_fields.mjs';
+import { sourceOf } from './surroundings_math.mjs';
 import { withFile } from './volume_math.mjs';
 
 const shadowed = (store) => store.effective('shadow.enabled') !== false;
@@ -98,7 +99,7 @@ export const kSections = [
     title: 'Light',
     fields: [
       { path: 'shadowLightPolicy', label: 'Shadows of', choices: [['all', 'All lights'], ['first', 'First sun']], says: 'Which lights cast shadows' },
-      { path: 'ambient.intensity', label: 'Ambient', slider: [0, 3, 0.01], says: 'Light from the surroundings' },
+      { path: 'ambient.intensity', label: 'Ambient', slider: [0, 3, 0.01], says: 'Light of the studio', needs: ({ state }) => sourceOf(state) === 'studio' },
       { path: 'exposure', label: 'Exposure', says: 'Stops', slider: [-6, 6, 0.1] },
       { path: 'toneMapping', label: 'Tone', choices: kToneMappings },
     ],

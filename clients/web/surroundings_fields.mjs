@@ -44,7 +44,7 @@ export const kSurroundings = {
     { path: 'environment.samples', label: 'Sky rays', says: 'A pixel, more where they disagree', choices: [[1, '1'], [2, '2'], [4, '4'], [8, '8'], [16, '16']], absent: 4, needs: hasSkyShadows },
     { path: 'ground', label: 'Ground', choices: [['none', 'None'], ['catcher', 'Shadow', 'A plane under the scene, invisible but for the shadows on it'], ['surface', 'Surface', 'A plane that is seen']], value: groundMode, choose: chooseGround, keeps: true },
     { path: 'ground.height', label: 'Height', unit: 'm', says: 'Of the ground; by itself it is below the lowest point that is seen', needs: (store) => groundMode(store) !== 'none' },
-    { path: 'ground.color', label: 'Color', color: true, needs: isSurface },
+    { path: 'ground.color', label: 'Color', color: true, absent: [0.5, 0.5, 0.5], needs: isSurface },
     { path: 'ground.roughness', label: 'Roughness', says: '0 = a mirror, 1 = matt', slider: [0, 1, 0.01], absent: 1, needs: isSurface },
   ],
 };
