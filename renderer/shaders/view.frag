@@ -7,6 +7,7 @@
 #include "common_shadow.glsl"
 #include "shared/light.h"
 #include "common_light_lists.glsl"
+#include "common_sky_share.glsl"
 #include "shared/picture.h"
 #ifdef DEBUG_LIGHT
 #include "common_debug.glsl"
@@ -54,7 +55,12 @@ vec3 radianceToEye(Surface surface, SurfacePoint s, Receiver receiver, vec4 emis
   return isUnlit(emission) || debugLight < 0 ? vec3(0.0) : radianceFrom(debugLight, s, receiver);
 #else
   if (isUnlit(emission)) return emission.rgb;
-  vec3 sum = emission.rgb + reflectedSurroundings(surface, s, vec4(1.0)) * surface.occlusion;
+#ifdef SKY_SHADOW
+  vec4 arriving = skyShare(receiver.samples);
+#else
+  vec4 arriving = vec4(1.0);
+#endif
+  vec3 sum = emission.rgb + reflectedSurroundings(surface, s, arriving) * surface.occlusion;
   uvec2 list = lightList();
   for (uint k = list.x; k < list.y; ++k) sum += radianceFrom(listedLight(k), s, receiver);
   return sum;
@@ -74,7 +80,7 @@ Receiver receiverOf(Sample seen, vec3 face, uint samples) {
 #ifdef RECEIVER_GROUPS
   receiver.groupBit = 1u << receiverGroup(seen.bits);
 #endif
-#if defined(VISIBILITY_LAYERS) || defined(BAKED_LIGHTS)
+#if defined(VISIBILITY_LAYERS) || defined(BAKED_LIGHTS) || defined(SKY_SHADOW)
   receiver.samples = samples;
 #endif
   return receiver;

@@ -8,6 +8,7 @@
 
 #include <span>
 
+#include "renderer/cpu/shadow/sky_share-inl.h"
 #include "renderer/cpu/surface/surface-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,6 +18,7 @@ namespace gnomon::cpu::HWY_NAMESPACE {
 struct Lighting {
   std::span<const LightData> lights;
   std::span<const std::uint32_t> lists; ///< lightLists; empty = every light may reach every pixel
+  SkyLayer sky{};
 };
 
 HWY_INLINE SurfacePoint pointOf(const Surface& surface) {
@@ -71,7 +73,8 @@ HWY_INLINE Float3 radianceToEye(const FrameScene& scene, const Lighting& lightin
   const Mask lit = andNot(surface.unlit, fragments.shown);
   if (none(lit)) return surface.emission;
   const SurfacePoint point = pointOf(surface);
-  const Float4 arriving(1.0f, 1.0f, 1.0f, 1.0f);
+  const Float4 arriving = lighting.sky.values != nullptr ? skyShare(lighting.sky, surface.receiver, lit)
+                                                         : Float4(1.0f, 1.0f, 1.0f, 1.0f);
   Float3 sum = surface.emission + reflectedSurroundings(scene, surface, point, arriving) * surface.occlusion;
   if (lighting.lists.empty()) {
     for (std::uint32_t k = 0; k < lighting.lights.size(); ++k) {
