@@ -20,6 +20,7 @@
 #include "renderer/scene/graph/scene_views.h"
 #include "renderer/scene/materials/materials.h"
 #include "renderer/scene/posing/deformation.h"
+#include "renderer/scene/ground.h"
 #include "renderer/scene/posing/pose.h"
 #include "renderer/scene/summary.h"
 
@@ -100,6 +101,7 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   if (findings.violated()) return findings.takeProblems();
   scene->grids = gridFiles(bundle);
   if (!scene->grids.empty()) scene->placedNodes = placedNodes(tree, tree.hidden);
+  addGroundMesh(*scene);
   scene->defaultScene = std::max(model.scene, 0);
   scene->summary = summarize(model, bundle, *scene);
   scene->summary.id = id;
