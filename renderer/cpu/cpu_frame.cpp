@@ -12,6 +12,7 @@
 #include "renderer/cpu/shadow/probe.h"
 #include "renderer/cpu/shadow/read_texels.h"
 #include "renderer/cpu/show/read_textures.h"
+#include "renderer/device/sky_views.h"
 
 namespace gnomon::cpu {
 namespace {
@@ -128,6 +129,18 @@ Status CpuFrame::needLayers(int samples) {
   return Done{};
 }
 
+Status CpuFrame::needSky(int samples) {
+  if (skies_.contains(samples)) return Done{};
+  const DepthBuffer& shown = surfaces(samples);
+  passStart_ = Clock::now();
+  auto made = skyLayer(camera(), work_, shown);
+  if (!made) return made.problems();
+  endPass("sky", 0);
+  facts_.passes.back().rays = made->rays;
+  skies_.emplace(samples, std::move(*made));
+  return Done{};
+}
+
 const VolumeLayers* CpuFrame::needVolumes(const ViewRequest& request) {
   const bool shadowed = traitsOf(request.view).shadowed;
   if (work_.volumes == nullptr || work_.volumes->empty() || !shadowed || request.fullStrength) return nullptr;
@@ -213,6 +226,10 @@ Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
   if (traits.shadowed) {
     if (const Status there = needLayers(samples); !there) return there.problems();
   }
+  const bool sky = showsSkyShadow(work_, request);
+  if (sky) {
+    if (const Status there = needSky(samples); !there) return there.problems();
+  }
   if (traits.material) {
     if (const Status made = cached_.textures->need(missingTextures(samples)); !made) return made.problems();
   }
@@ -230,6 +247,7 @@ Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
     maps.volumes = {volumes->shadow.data(), shown.width, samples};
   }
   ShowJob job = jobOf(input, shown, maps);
+  if (sky) job.sky = {&skies_.at(samples).values.data()->x, shown.width, samples};
   job.view = request.view;
   job.encoded = request.encoded;
   job.tone = toneOf(work_.frame.spec.toneMapping, request.encoded);
@@ -332,6 +350,7 @@ Result<FrameFacts> CpuFrame::finish() {
   facts_.memory.targets += bytesOf(survey_.buffer);
   for (const auto& [samples, buffer] : otherSurfaces_) facts_.memory.targets += bytesOf(buffer);
   for (const auto& [samples, layers] : layers_) facts_.memory.targets += layers.bytes();
+  for (const auto& [samples, sky] : skies_) facts_.memory.targets += sky.values.size() * sizeof(sky.values[0]);
   for (const auto& [samples, layers] : volumes_) facts_.memory.targets += bytesOf(layers);
   return std::move(facts_);
 }

@@ -5,6 +5,7 @@
 
 #include "renderer/core/stop.h"
 #include "renderer/frame/baked_scene.h"
+#include "renderer/frame/environment_of_frame.h"
 #include "renderer/frame/frame_views.h"
 #include "renderer/frame/frame_warnings.h"
 #include "renderer/frame/geometry_views.h"
@@ -35,8 +36,9 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   const auto bakedLight = [&](int light) { return baked[static_cast<std::size_t>(light)].baked; };
 
   MadeVolumes made;
+  FrameEnvironment environment;
   const auto begun = device.begin({scene, resolved, layered, needsEdges(resolved), tracedScene, bakedLight,
-                                   &made.volumes, nullptr, receiverParts(resolved)});
+                                   &made.volumes, &environment, receiverParts(resolved)});
   if (!begun) return begun.problems();
   FrameDrawing& drawing = **begun;
 
@@ -49,6 +51,11 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   if (!volumes) return volumes.problems();
   made = *std::move(volumes);
   if (!made.volumes.empty()) drawing.endStage("volume");
+
+  auto around = environmentOf(caches.environments, *settled);
+  if (!around) return around.problems();
+  environment = *std::move(around);
+  if (environment.environment) drawing.endStage("environment");
 
   auto seen = drawing.survey();
   if (!seen) return seen.problems();

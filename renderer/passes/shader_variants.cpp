@@ -154,6 +154,7 @@ gl::ProgramSource viewProgram(const ViewVariant& variant) {
     defines.push_back("FIRST_BAKED " + std::to_string(variant.firstBaked) + "u");
   }
   if (variant.shadowColor) defines.emplace_back("SHADOW_COLOR");
+  if (variant.skyShadow) defines.emplace_back("SKY_SHADOW");
   if (variant.volumes) defines.emplace_back("VOLUMES");
   if (variant.volumeLight >= 0) defines.push_back("VOLUME_LIGHT " + std::to_string(variant.volumeLight));
   if (variant.emission) defines.emplace_back("EMISSION");

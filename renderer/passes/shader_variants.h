@@ -65,6 +65,7 @@ struct ViewVariant {
   int bakedLights = 0;           ///< as in SurfaceVariant
   int firstBaked = 0;            ///< the visibility layer of the first of them
   bool shadowColor = false;      ///< some light's shadow is not black
+  bool skyShadow = false;        ///< the scene hides some of the environment
   bool volumes = false;          ///< clouds and the like are seen
   int volumeLight = -1;          ///< the light that they shade surfaces from: a layer of its own, the last; -1 = none
 };

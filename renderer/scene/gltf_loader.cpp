@@ -7,6 +7,7 @@
 
 #include "protocol/base/bytes.h"
 #include "renderer/core/grid_file_kind.h"
+#include "renderer/environment/read_environment.h"
 #include "renderer/scene/animation/motion.h"
 #include "renderer/scene/animation/posed_scene.h"
 #include "renderer/scene/decode/draco_primitives.h"
@@ -32,13 +33,14 @@ bool isEmpty(const BuiltMesh& mesh) {
   return mesh.primitives.empty() && mesh.deformables.empty();
 }
 
-/// Volumes are named by frames, and not by the model: kept as they are, by their first bytes.
-std::map<std::string, std::shared_ptr<const Bytes>> gridFiles(const SceneBundle& bundle) {
-  std::map<std::string, std::shared_ptr<const Bytes>> grids;
+/// Volumes and environments are named by frames, and not by the model: kept as they are, by their first bytes.
+template <class Is>
+std::map<std::string, std::shared_ptr<const Bytes>> filesThat(const SceneBundle& bundle, const Is& are) {
+  std::map<std::string, std::shared_ptr<const Bytes>> files;
   for (const auto& [name, file] : bundle.files) {
-    if (gridFileKind(asText(file))) grids.emplace(name, std::make_shared<const Bytes>(file));
+    if (are(file)) files.emplace(name, std::make_shared<const Bytes>(file));
   }
-  return grids;
+  return files;
 }
 
 Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limits& limits, const std::string& id,
@@ -99,7 +101,8 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   if (findings.refused()) return findings.takeProblems();
 
   if (findings.violated()) return findings.takeProblems();
-  scene->grids = gridFiles(bundle);
+  scene->grids = filesThat(bundle, [](const Bytes& file) { return gridFileKind(asText(file)).has_value(); });
+  scene->environmentFiles = filesThat(bundle, [](const Bytes& file) { return isEnvironmentFile(file); });
   if (!scene->grids.empty()) scene->placedNodes = placedNodes(tree, tree.hidden);
   addGroundMesh(*scene);
   scene->defaultScene = std::max(model.scene, 0);

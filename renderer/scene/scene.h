@@ -241,7 +241,8 @@ struct Scene {
   std::vector<Material> materials;                           ///< at least one (the default material)
   SceneImages images;                                        ///< decoded when a frame needs them
   std::map<std::string, std::shared_ptr<const Bytes>> grids; ///< files of the bundle that hold volumes, by their names
-  std::vector<SceneNode> nodes;                              ///< as the file numbers them
+  std::map<std::string, std::shared_ptr<const Bytes>> environmentFiles; ///< those that are .hdr or .exr, by their names
+  std::vector<SceneNode> nodes;                                         ///< as the file numbers them
   std::vector<LeftOutCamera> leftOutCameras;
   std::vector<PlacedNode> placedNodes;            ///< parallel; empty where there are no grids
   std::shared_ptr<const Deformation> deformation; ///< of skins and morph targets; nullptr = nothing deforms

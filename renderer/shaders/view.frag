@@ -7,6 +7,7 @@
 #include "common_shadow.glsl"
 #include "shared/light.h"
 #include "common_light_lists.glsl"
+#include "common_sky_share.glsl"
 #include "shared/picture.h"
 #include "shared/shadow_catcher.h"
 #ifdef DEBUG_LIGHT
@@ -43,7 +44,11 @@ vec3 radianceToEye(SurfacePoint s, Receiver receiver, vec4 emission, float occlu
   return isUnlit(emission) || debugLight < 0 ? vec3(0.0) : radianceFrom(debugLight, s, receiver);
 #else
   if (isUnlit(emission)) return emission.rgb;
-  vec3 sum = emission.rgb + frame.ambient * ambientReflected(s) * occlusion;
+  vec3 ambient = frame.ambient * ambientReflected(s) * occlusion;
+#ifdef SKY_SHADOW
+  ambient *= skyShare(receiver.samples).rgb;
+#endif
+  vec3 sum = emission.rgb + ambient;
   uvec2 list = lightList();
   for (uint k = list.x; k < list.y; ++k) sum += radianceFrom(listedLight(k), s, receiver);
   return sum;
@@ -63,7 +68,7 @@ Receiver receiverOf(Sample seen, vec3 face, uint samples) {
 #ifdef RECEIVER_GROUPS
   receiver.groupBit = 1u << receiverGroup(seen.bits);
 #endif
-#if defined(VISIBILITY_LAYERS) || defined(BAKED_LIGHTS)
+#if defined(VISIBILITY_LAYERS) || defined(BAKED_LIGHTS) || defined(SKY_SHADOW)
   receiver.samples = samples;
 #endif
   return receiver;

@@ -19,7 +19,7 @@ HWY_INLINE Float3 radianceOf(const ShowJob& job, const Fragments& fragments, con
   const auto visibility =
       [&](std::size_t light, const Receiver& receiver, const Float3& toLight, const Mask& where)
           HWY_ATTR { return shadowVisibility(job.maps, static_cast<int>(light), receiver, toLight, where); };
-  const Lighting lighting{job.maps.lights, job.lightLists};
+  const Lighting lighting{job.maps.lights, job.lightLists, job.sky};
   if (job.view != View::lightContribution) {
     return radianceToEye(job.scene, lighting, fragments, surface, visibility);
   }

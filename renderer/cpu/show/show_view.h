@@ -34,6 +34,7 @@ struct ShowJob {
   const DepthBuffer& buffer; ///< numbered; data has one sample a pixel
   const ShadowMaps& maps;
   std::span<const std::uint32_t> lightLists; ///< lightLists; empty = every light may reach every pixel
+  SkyLayer sky{};
   View view = View::color;
   bool encoded = true; ///< as in ViewRequest
   bool fine = false;   ///< as in ViewRequest

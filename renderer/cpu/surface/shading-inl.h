@@ -8,6 +8,7 @@
 
 #include <span>
 
+#include "renderer/cpu/shadow/sky_share-inl.h"
 #include "renderer/cpu/surface/surface-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,6 +18,7 @@ namespace gnomon::cpu::HWY_NAMESPACE {
 struct Lighting {
   std::span<const LightData> lights;
   std::span<const std::uint32_t> lists; ///< lightLists; empty = every light may reach every pixel
+  SkyLayer sky{};
 };
 
 HWY_INLINE SurfacePoint pointOf(const Surface& surface) {
@@ -77,7 +79,12 @@ HWY_INLINE Float3 radianceToEye(const FrameScene& scene, const Lighting& lightin
   const Mask lit = andNot(surface.unlit, fragments.shown);
   if (none(lit)) return surface.emission;
   const SurfacePoint point = pointOf(surface);
-  Float3 sum = surface.emission + Float3(scene.frame.ambient) * ambientReflected(point) * surface.occlusion;
+  Float3 ambient = Float3(scene.frame.ambient) * ambientReflected(point) * surface.occlusion;
+  if (lighting.sky.values != nullptr) {
+    const Float4 share = skyShare(lighting.sky, surface.receiver, lit);
+    ambient = ambient * Float3(share.x, share.y, share.z);
+  }
+  Float3 sum = surface.emission + ambient;
   const auto add = [&](std::uint32_t light, const Mask& where)
                        HWY_ATTR { sum += radianceFrom(lighting, light, point, surface.receiver, where, visibility); };
   forEachLight(scene, lighting, fragments, lit, add);

@@ -42,6 +42,7 @@ ViewVariant variantFor(const PassInputs& inputs, const Shading& shading, const V
   variant.shadowColor =
       traits.shadowed && std::any_of(shading.lights.begin(), shading.lights.end(),
                                      [](const LitLight& light) { return light.shadowColor != glm::dvec3(0); });
+  variant.skyShadow = sources.sky != nullptr;
   if (sources.volumes != nullptr) {
     variant.volumes = view == View::color;
     variant.volumeLight = sources.volumeLight;
@@ -115,6 +116,7 @@ Result<DrawnView> drawView(const PassInputs& inputs, const Shading& shading, con
                  {GNOMON_VISIBILITY_UNIT, &sources.visibility.texture},
                  {GNOMON_BAKED_UNIT, &surfaces.bakedShares},
                  {GNOMON_VOLUMES_UNIT, variant.volumes ? &sources.volumes->picture : nullptr},
+                 {GNOMON_SKY_UNIT, sources.sky != nullptr ? &sources.sky->texture : nullptr},
                  {GNOMON_CASTER_NODE_UNIT, &sources.casters.nodes},
                  {GNOMON_CASTER_DEPTH_UNIT, &sources.casters.depth}});
   drawn.timer.stop();

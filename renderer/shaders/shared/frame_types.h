@@ -85,6 +85,7 @@ using glm::vec4;
 #define GNOMON_VOLUMES_UNIT 8
 #define GNOMON_CASTER_NODE_UNIT 9
 #define GNOMON_CASTER_DEPTH_UNIT 10
+#define GNOMON_SKY_UNIT 15
 
 // Pixels along a side of a survey block (shadow_plan.h).
 #define GNOMON_BLOCK_SIZE 8
