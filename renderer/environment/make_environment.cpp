@@ -5,11 +5,12 @@
 namespace gnomon {
 
 Environment makeEnvironment(EnvironmentMap map, SunExtraction) {
-  return {std::move(map), {}};
+  PrefilteredEnvironment made = prefiltered(map);
+  return {std::move(map), {}, std::move(made)};
 }
 
 std::size_t bytesIn(const Environment& environment) {
-  return environment.map.texels.size() * sizeof(glm::vec3);
+  return environment.map.texels.size() * sizeof(glm::vec3) + environment.prefiltered.texels.size() * sizeof(glm::vec4);
 }
 
 } // namespace gnomon

@@ -122,7 +122,10 @@ gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant&
   if (material.specularGlossiness) defines.emplace_back("SPECULAR_GLOSSINESS");
   if (material.unlit) defines.emplace_back("UNLIT");
   if (material.catchesShadows) defines.emplace_back("CATCHER");
-  if (material.transmission > 0) defines.emplace_back("TRANSMISSION");
+  if (material.transmission > 0) {
+    defines.emplace_back("TRANSMISSION");
+    if (variant.environment) defines.emplace_back("ENVIRONMENT");
+  }
   if (variant.emission) defines.emplace_back("EMISSION");
   if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
   int location = variant.emission ? 2 : 1;
@@ -157,6 +160,8 @@ gl::ProgramSource viewProgram(const ViewVariant& variant) {
   if (variant.skyShadow) defines.emplace_back("SKY_SHADOW");
   if (variant.volumes) defines.emplace_back("VOLUMES");
   if (variant.volumeLight >= 0) defines.push_back("VOLUME_LIGHT " + std::to_string(variant.volumeLight));
+  if (variant.environment) defines.emplace_back("ENVIRONMENT");
+  if (variant.shownSurroundings) defines.emplace_back("SHOWN_SURROUNDINGS");
   if (variant.emission) defines.emplace_back("EMISSION");
   if (variant.unlit) defines.emplace_back("UNLIT");
   if (variant.catcher) defines.emplace_back("CATCHER");

@@ -28,9 +28,12 @@ HWY_INLINE Float3 radianceOf(const ShowJob& job, const Fragments& fragments, con
                       andNot(surface.unlit, fragments.shown), visibility);
 }
 
-SeenLight backgroundLight(const ShowJob& job) {
-  const glm::vec4& background = job.scene.frame.background;
-  return seenLight(Float3(0.0f), Float3(glm::vec3(background)), background.w);
+/// Where no surface is, at pixels `x`, `y`.
+HWY_INLINE SeenLight seenBehindAll(const ShowJob& job, const glm::vec4& background, const Int& x, const Int& y) {
+  if (!showsSurroundings(job)) return seenLight(Float3(0.0f), Float3(glm::vec3(background)), background.w);
+  const shared::FrameData& frame = job.scene.frame;
+  const Sight sight = sightThrough(frame, {toFloat(x) + 0.5f, toFloat(y) + 0.5f});
+  return seenLight(radianceOfSurroundings(job.scene, normalize(sight.way), frame.shownRoughness), Float3(0.0f), 1.0f);
 }
 
 /// What lanes that catch shadows show.
@@ -38,10 +41,10 @@ HWY_NOINLINE SeenLight caughtLightOf(const ShowJob& job, const Fragments& fragme
   const auto visibility =
       [&](std::size_t light, const Receiver& receiver, const Float3& toLight, const Mask& where)
           HWY_ATTR { return shadowVisibility(job.maps, static_cast<int>(light), receiver, toLight, where); };
-  const Lighting lighting{job.maps.lights, job.lightLists};
+  const Lighting lighting{job.maps.lights, job.lightLists, job.sky};
   const Mask asked = surface.catches & fragments.shown;
-  return seenThroughCatcher(backgroundLight(job),
-                            caughtHere(job.scene, lighting, fragments, surface, asked, visibility));
+  const SeenLight behind = seenBehindAll(job, job.scene.frame.background, fragments.x, fragments.y);
+  return seenThroughCatcher(behind, caughtHere(job.scene, lighting, fragments, surface, asked, visibility));
 }
 
 HWY_INLINE SeenLight seenOf(const ShowJob& job, const Fragments& fragments, const Surface& surface) {
@@ -78,15 +81,13 @@ HWY_INLINE ShownColor shownColor(const ShowJob& job, SeenLight seen, const Int& 
   return {shownColor(seen, job.scene.frame.exposureScale, job.tone), seen.alpha};
 }
 
-/// Where no surface is.
-void fillBehindVolumes(const ShowJob& job, int squareX, int squareY, const glm::vec4& background, TileColors& colors) {
-  const SeenLight behind = seenLight(Float3(0.0f), Float3(glm::vec3(background)), background.w);
+/// Where no surface is, with what differs from pixel to pixel.
+void fillBackground(const ShowJob& job, int squareX, int squareY, const glm::vec4& background, TileColors& colors) {
   for (int first = 0; first < static_cast<int>(kTilePixels); first += static_cast<int>(kLanes)) {
     const Int pixel = Int(first) + laneNumbers();
-    const Int x = Int(squareX) + columnOf(pixel);
-    const Int y = Int(squareY) + rowOf(pixel);
-    const auto [color, alpha] =
-        shownColor(job, behind, min(x, Int(job.scene.width - 1)), min(y, Int(job.scene.height - 1)));
+    const Int x = min(Int(squareX) + columnOf(pixel), Int(job.scene.width - 1));
+    const Int y = min(Int(squareY) + rowOf(pixel), Int(job.scene.height - 1));
+    const auto [color, alpha] = shownColor(job, seenBehindAll(job, background, x, y), x, y);
     const auto at = static_cast<std::size_t>(first);
     store(color.x, &colors.channels[0][at]);
     store(color.y, &colors.channels[1][at]);
@@ -162,9 +163,9 @@ void pictureSquareOn(const ShowJob& job, const FragmentList& list, int x, int y,
   const glm::vec4 background = job.view == View::lightContribution ? glm::vec4(0, 0, 0, job.scene.frame.background.w)
                                                                    : job.scene.frame.background;
   for (std::size_t c = 0; c < 4; ++c) colors.channels[c].fill(background[static_cast<int>(c)]);
-  std::optional<TileColors> behind; // where volumes stand before the background
-  if (!job.volumes.empty()) {
-    fillBehindVolumes(job, x, y, background, colors);
+  std::optional<TileColors> behind; // of each pixel
+  if (!isPlainBehind(job)) {
+    fillBackground(job, x, y, background, colors);
     behind = colors;
   }
   const float share = 1.0f / static_cast<float>(job.buffer.samples);

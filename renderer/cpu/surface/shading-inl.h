@@ -25,6 +25,17 @@ HWY_INLINE SurfacePoint pointOf(const Surface& surface) {
   return surfacePoint(surface.baseColor, surface.metallic, surface.roughness, surface.normal, surface.toEye);
 }
 
+/// What surfaces show of the surroundings. `arriving`: what the scene leaves of their light, as environmentReflected
+/// has it.
+HWY_INLINE Float3 reflectedSurroundings(const FrameScene& scene, const Surface& surface, const SurfacePoint& point,
+                                        const Float4& arriving) {
+  if (scene.environment == nullptr) return Float3(scene.frame.ambient) * ambientReflected(point);
+  const Float3 reflected =
+      environmentReflected(scene.environment, Float2(scene.frame.environmentTurn), point, surface.baseColor,
+                           surface.metallic, surface.roughness, surface.receiver.normal, arriving);
+  return reflected * scene.frame.environmentIntensity;
+}
+
 /// What one light adds to the lanes `asked`, all of which show a surface. `visibility(light, receiver, toLight,
 /// where)`: the share of it that arrives, 0..1, asked for the lanes `where`, of which it reflects something; in the
 /// others it may be any number.
@@ -79,12 +90,9 @@ HWY_INLINE Float3 radianceToEye(const FrameScene& scene, const Lighting& lightin
   const Mask lit = andNot(surface.unlit, fragments.shown);
   if (none(lit)) return surface.emission;
   const SurfacePoint point = pointOf(surface);
-  Float3 ambient = Float3(scene.frame.ambient) * ambientReflected(point) * surface.occlusion;
-  if (lighting.sky.values != nullptr) {
-    const Float4 share = skyShare(lighting.sky, surface.receiver, lit);
-    ambient = ambient * Float3(share.x, share.y, share.z);
-  }
-  Float3 sum = surface.emission + ambient;
+  const Float4 arriving =
+      lighting.sky.values != nullptr ? skyShare(lighting.sky, surface.receiver, lit) : Float4(1.0f, 1.0f, 1.0f, 1.0f);
+  Float3 sum = surface.emission + reflectedSurroundings(scene, surface, point, arriving) * surface.occlusion;
   const auto add = [&](std::uint32_t light, const Mask& where)
                        HWY_ATTR { sum += radianceFrom(lighting, light, point, surface.receiver, where, visibility); };
   forEachLight(scene, lighting, fragments, lit, add);
@@ -112,7 +120,9 @@ HWY_INLINE CaughtLight caughtOf(const Lighting& lighting, std::uint32_t light, c
 template <class Visibility>
 HWY_INLINE CaughtLight caughtHere(const FrameScene& scene, const Lighting& lighting, const Fragments& fragments,
                                   const Surface& surface, const Mask& asked, const Visibility& visibility) {
-  CaughtLight sum = caughtAround(Float3(scene.frame.ambient), surface.normal, Float3(1.0f));
+  const Float4 open =
+      lighting.sky.values != nullptr ? skyShare(lighting.sky, surface.receiver, asked) : Float4(1.0f, 1.0f, 1.0f, 1.0f);
+  CaughtLight sum = caughtAround(irradianceOfSurroundings(scene, surface.normal), Float3(open.x, open.y, open.z));
   const auto add = [&](std::uint32_t light, const Mask& where) HWY_ATTR {
     const CaughtLight one = caughtOf(lighting, light, surface, where, visibility);
     sum.all += one.all;

@@ -18,9 +18,8 @@ GNOMON_FUNCTION CaughtLight caughtFrom(vec3 normal, vec3 toLight, vec3 arriving,
   return caughtLight(luminance(arriving) * facing, luminance(arriving * (vec3(1.0f) - left)) * facing);
 }
 
-// Of the surroundings. `left`: the share of them that the scene does not hide.
-GNOMON_FUNCTION CaughtLight caughtAround(vec3 ambient, vec3 normal, vec3 left) {
-  vec3 arriving = ambient * irradianceAround(normal.y);
+// Of the surroundings. `arriving`: their irradiance over pi; `left`: the share of them that the scene does not hide.
+GNOMON_FUNCTION CaughtLight caughtAround(vec3 arriving, vec3 left) {
   return caughtLight(luminance(arriving), luminance(arriving * (vec3(1.0f) - left)));
 }
 
