@@ -121,6 +121,7 @@ gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant&
   if (masked) defines.emplace_back("ALPHA_MASK");
   if (material.specularGlossiness) defines.emplace_back("SPECULAR_GLOSSINESS");
   if (material.unlit) defines.emplace_back("UNLIT");
+  if (material.catchesShadows) defines.emplace_back("CATCHER");
   if (material.transmission > 0) {
     defines.emplace_back("TRANSMISSION");
     if (variant.environment) defines.emplace_back("ENVIRONMENT");
@@ -163,6 +164,7 @@ gl::ProgramSource viewProgram(const ViewVariant& variant) {
   if (variant.shownSurroundings) defines.emplace_back("SHOWN_SURROUNDINGS");
   if (variant.emission) defines.emplace_back("EMISSION");
   if (variant.unlit) defines.emplace_back("UNLIT");
+  if (variant.catcher) defines.emplace_back("CATCHER");
   if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
   if (traitsOf(variant.view).oneLight) defines.emplace_back("DEBUG_LIGHT");
   if (variant.encoded) defines.emplace_back("ENCODED");

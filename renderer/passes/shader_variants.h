@@ -23,9 +23,9 @@ gl::ProgramSource castProgram(const Material* masked, BlendedCasters blended);
 gl::ProgramSource casterNodeProgram(const Material* masked, BlendedCasters blended);
 
 struct SurfaceVariant {
-  bool tangents = false; ///< the primitive brings its own
-  bool emission =
-      false; ///< something in the scene glows, lets light through or is unlit: every program writes what it gives off
+  bool tangents = false;       ///< the primitive brings its own
+  bool emission = false;       ///< something in the scene glows, lets light through, is unlit or catches shadows: every
+                               ///< program writes what it gives off
   bool receiverGroups = false; ///< some light tells receiver groups apart
   bool numbered = false;       ///< says which triangle shows (prepare/draw_list.h)
   bool smoothPlaces = false;   ///< says where the surface lies that shading shows (shaders/shared/smooth_surface.h)
@@ -54,6 +54,7 @@ struct ViewVariant {
   int samples = 1;             ///< a pixel
   bool emission = false;       ///< as in SurfaceVariant
   bool unlit = false;          ///< some material is; `emission` is set then
+  bool catcher = false;        ///< some material catches shadows, and the view shows it so; `emission` is set then
   bool receiverGroups = false; ///< as in SurfaceVariant
   int lights = 0;
   bool lightLists = false; ///< each square of the picture lists its own

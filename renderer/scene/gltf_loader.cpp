@@ -21,6 +21,7 @@
 #include "renderer/scene/graph/scene_views.h"
 #include "renderer/scene/materials/materials.h"
 #include "renderer/scene/posing/deformation.h"
+#include "renderer/scene/ground.h"
 #include "renderer/scene/posing/pose.h"
 #include "renderer/scene/summary.h"
 
@@ -103,6 +104,7 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   scene->grids = filesThat(bundle, [](const Bytes& file) { return gridFileKind(asText(file)).has_value(); });
   scene->environmentFiles = filesThat(bundle, [](const Bytes& file) { return isEnvironmentFile(file); });
   if (!scene->grids.empty()) scene->placedNodes = placedNodes(tree, tree.hidden);
+  addGroundMesh(*scene);
   scene->defaultScene = std::max(model.scene, 0);
   scene->summary = summarize(model, bundle, *scene);
   scene->summary.id = id;

@@ -19,6 +19,16 @@ vec3 environmentTexel(sampler2D texels, vec2 place) {
 #include "shared/environment.h"
 #endif
 
+// Their irradiance over pi on what faces a world direction.
+vec3 irradianceOfSurroundings(vec3 normal) {
+#ifdef ENVIRONMENT
+  vec3 texel = environmentIrradiance(environmentTexels, inEnvironment(normal, frame.environmentTurn));
+  return frame.environmentIntensity * texel;
+#else
+  return frame.ambient * irradianceAround(normal.y);
+#endif
+}
+
 // Their radiance from a world direction. `roughness`: perceptual, of the surface that shows it.
 vec3 radianceOfSurroundings(vec3 direction, float roughness) {
 #ifdef ENVIRONMENT

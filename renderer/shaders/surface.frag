@@ -104,6 +104,8 @@ void main() {
 #endif
 #ifdef UNLIT
   glow = vec4(color.rgb, 1.0);
+#elif defined(CATCHER)
+  glow.a = 2.0;
 #elif defined(TRANSMISSION)
   // The diffuse part gives way to the surroundings behind, unshadowed and unbent.
   float passing = material.transmission * (1.0 - metallicRoughness.x);

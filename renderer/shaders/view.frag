@@ -9,6 +9,7 @@
 #include "common_light_lists.glsl"
 #include "common_sky_share.glsl"
 #include "shared/picture.h"
+#include "shared/shadow_catcher.h"
 #ifdef DEBUG_LIGHT
 #include "common_debug.glsl"
 #endif
@@ -123,10 +124,46 @@ SeenLight backgroundLight() {
 #endif
 }
 
+#ifdef CATCHER
+bool isCatcher(vec4 emission) { return emission.w == 2.0; }
+
+CaughtLight caughtOf(int light, vec3 normal, Receiver receiver) {
+#ifdef RECEIVER_GROUPS
+  if ((lights[light].litGroups & receiver.groupBit) == 0u) return caughtLight(0.0, 0.0);
+#endif
+  vec3 toLight;
+  vec3 arriving = irradiance(lights[light], receiver.relative, toLight);
+  bool shines = dot(normal, toLight) > 0.0 && arriving != vec3(0.0);
+  vec3 left = vec3(shadowVisibility(light, receiver, toLight, shines));
+#ifdef SHADOW_COLOR
+  left = mix(lights[light].shadowColor, vec3(1.0), left);
+#endif
+  return caughtFrom(normal, toLight, arriving, left);
+}
+
+CaughtLight caughtHere(vec3 normal, Receiver receiver) {
+  vec3 open = vec3(1.0);
+#ifdef SKY_SHADOW
+  open = skyShare(receiver.samples).rgb;
+#endif
+  CaughtLight sum = caughtAround(irradianceOfSurroundings(normal), open);
+  uvec2 list = lightList();
+  for (uint k = list.x; k < list.y; ++k) {
+    CaughtLight one = caughtOf(listedLight(k), normal, receiver);
+    sum.all += one.all;
+    sum.lost += one.lost;
+  }
+  return sum;
+}
+#endif
+
 SeenLight surfaceLight(Surface surface, Sample seen, Receiver receiver) {
   vec3 toEye = frame.perspective != 0u ? -normalize(seen.relative) : -frame.forward;
   SurfacePoint s = surfacePoint(surface.baseColor, surface.metallic, surface.roughness, surface.normal, toEye);
   vec4 emission = emissionAt(seen.index);
+#ifdef CATCHER
+  if (isCatcher(emission)) return seenThroughCatcher(backgroundLight(), caughtHere(surface.normal, receiver));
+#endif
   vec3 radiance = radianceToEye(surface, s, receiver, emission);
   return isUnlit(emission) ? seenLight(vec3(0.0), radiance, 1.0) : seenLight(radiance, vec3(0.0), 1.0);
 }
@@ -146,6 +183,18 @@ vec4 picture(Sample seen, uint samples) {
 }
 
 #if SAMPLES > 1
+#ifdef CATCHER
+// Colors count as much as they cover.
+vec4 addend(vec4 shown) { return vec4(shown.rgb * shown.a, shown.a); }
+vec4 meanOf(vec4 sum) {
+  vec4 mean = sum / float(SAMPLES);
+  return mean.a > 0.0 ? vec4(mean.rgb / mean.a, mean.a) : shownColor(backgroundLight());
+}
+#else
+vec4 addend(vec4 shown) { return shown; }
+vec4 meanOf(vec4 sum) { return sum / float(SAMPLES); }
+#endif
+
 // The mean of the pixel's samples; those that show one surface are lit once. The loop turns once for each surface, so
 // that a pixel inside one costs no more than without antialiasing.
 vec4 antialiased() {
@@ -155,9 +204,9 @@ vec4 antialiased() {
     uint same;
     Sample seen = mergedSample(left, same);
     left &= ~same;
-    sum += float(bitCount(same)) * picture(seen, same);
+    sum += float(bitCount(same)) * addend(picture(seen, same));
   }
-  return sum / float(SAMPLES);
+  return meanOf(sum);
 }
 #else
 vec4 antialiased() { return picture(sampleAt(0), 1u); }

@@ -27,6 +27,7 @@ struct Surface {
   Float occlusion; ///< of the surroundings, 1 = open
   Float3 emission; ///< radiance; of what is unlit all that it shows
   Mask unlit;
+  Mask catches; ///< shadows: in view color what is behind shows instead
 };
 
 HWY_INLINE Surface select(const Mask& where, const Surface& yes, const Surface& no) {
@@ -49,6 +50,7 @@ HWY_INLINE Surface select(const Mask& where, const Surface& yes, const Surface& 
   s.occlusion = select(where, yes.occlusion, no.occlusion);
   s.emission = select(where, yes.emission, no.emission);
   s.unlit = (where & yes.unlit) | andNot(where, no.unlit);
+  s.catches = (where & yes.catches) | andNot(where, no.catches);
   return s;
 }
 
@@ -200,6 +202,7 @@ class InstanceSurface {
     if (material_.emissive)
       s.emission = s.emission * texel<kColor>(*material_.emissive, GNOMON_EMISSIVE_UNIT, true).rgb;
     s.unlit = maskOf(material_.unlit ? 0xffffu : 0u);
+    s.catches = maskOf(material_.catchesShadows ? 0xffffu : 0u);
     if (material_.unlit) {
       s.emission = color;
     } else if (material_.transmission > 0) {

@@ -19,6 +19,13 @@ HWY_INLINE Float3 radianceOfSurroundings(const FrameScene& scene, const Float3& 
   return environmentRadiance(scene.environment, towards, roughness) * scene.frame.environmentIntensity;
 }
 
+/// Their irradiance over pi on what faces a world direction.
+HWY_INLINE Float3 irradianceOfSurroundings(const FrameScene& scene, const Float3& normal) {
+  if (scene.environment == nullptr) return Float3(scene.frame.ambient) * irradianceAround(normal.y);
+  const Float3 towards = inEnvironment(normal, Float2(scene.frame.environmentTurn));
+  return environmentIrradiance(scene.environment, towards) * scene.frame.environmentIntensity;
+}
+
 } // namespace gnomon::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

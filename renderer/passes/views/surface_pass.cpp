@@ -14,7 +14,8 @@ namespace {
 
 bool anythingGlows(const Scene& scene) {
   return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
-    return material.emissiveFactor != glm::vec3(0.0f) || material.unlit || material.transmission > 0;
+    return material.emissiveFactor != glm::vec3(0.0f) || material.unlit || material.transmission > 0 ||
+           material.catchesShadows;
   });
 }
 

@@ -35,6 +35,7 @@ ViewVariant variantFor(const PassInputs& inputs, const Shading& shading, const V
   variant.emission = surfaces.emission.id() != 0;
   variant.unlit = std::any_of(inputs.scene.materials.begin(), inputs.scene.materials.end(),
                               [](const Material& material) { return material.unlit; });
+  variant.catcher = view == View::color && inputs.scene.ground && inputs.scene.ground->catchesShadows;
   if (traits.shadowed) {
     variant.bakedLights = static_cast<int>(shading.baked.maps.size());
     variant.firstBaked = shading.baked.firstLayer;

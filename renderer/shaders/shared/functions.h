@@ -79,6 +79,8 @@ inline vec3 environmentTexel(EnvironmentTexels texels, const vec2& place) {
 #include "renderer/shaders/shared/shadow_bias.h"
 // debug_light.h calls what shadow_bias.h defines.
 #include "renderer/shaders/shared/debug_light.h"
+// shadow_catcher.h calls what brdf.h and picture.h define.
+#include "renderer/shaders/shared/shadow_catcher.h"
 #include "renderer/shaders/shared/shadow_disc.h"
 #include "renderer/shaders/shared/smooth_surface.h"
 #include "renderer/shaders/shared/specular_glossiness.h"
