@@ -47,15 +47,15 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   baked = *std::move(found);
   if (!baked.empty()) drawing.endStage("bake");
 
-  auto volumes = volumesOf(caches.volumes, caches.traced, *settled);
-  if (!volumes) return volumes.problems();
-  made = *std::move(volumes);
-  if (!made.volumes.empty()) drawing.endStage("volume");
-
   auto around = environmentOf(caches.environments, *settled);
   if (!around) return around.problems();
   environment = *std::move(around);
   if (environment.environment) drawing.endStage("environment");
+
+  auto volumes = volumesOf(caches.volumes, caches.traced, *settled, environment);
+  if (!volumes) return volumes.problems();
+  made = *std::move(volumes);
+  if (!made.volumes.empty()) drawing.endStage("volume");
 
   auto seen = drawing.survey();
   if (!seen) return seen.problems();
