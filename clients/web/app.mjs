@@ -9,14 +9,14 @@ import { fromHash, toHash } from './deep_link.mjs';
 import { element } from './dom.mjs';
 import { createErrorPanel } from './error_panel.mjs';
 import { createEvaluationPanel } from './evaluation_panel.mjs';
-import { kSections } from './fields.mjs';
+import { chooseTechnique, kSections } from './fields.mjs';
 import { createFrameLoop } from './frame_loop.mjs';
 import { lightsWithSun } from './light_math.mjs';
 import { createLightsPanel } from './lights_panel.mjs';
 import { createMotionPanel } from './motion_panel.mjs';
 import { createNodesPanel } from './nodes_panel.mjs';
 import { kFovYDegrees, kWholeScene, orbitInForce } from './orbit_math.mjs';
-import { setPath } from './paths.mjs';
+import { removePath, setPath } from './paths.mjs';
 import { createPicture } from './picture.mjs';
 import { createPlanOverlay } from './plan_overlay.mjs';
 import { createProblems } from './problems.mjs';
@@ -190,8 +190,8 @@ function showScene(summary, { added, panorama }) {
 byId('sun').append(createSunPanel(store), createLightsPanel(store));
 const panels = {
   bake: createBakePanel(store, {
-    specOf: () => setPath(setPath(sharpSpec(), 'shadow.technique', 'lightMap'), 'shadow.enabled', true),
-    done: () => store.setSpec('shadow.technique', 'lightMap'),
+    specOf: () => setPath(setPath(removePath(sharpSpec(), 'ground'), 'shadow.technique', 'lightMap'), 'shadow.enabled', true),
+    done: () => chooseTechnique('lightMap', store),
     problems,
   }),
   evaluation: createEvaluationPanel(store, { specOf: sharpSpec, problems, announce }),

@@ -24,6 +24,12 @@ function chooseDepthRange(mode, store) {
   store.setSpec('shadow.depthRange', { mode, min: 0, max: Number(far.toPrecision(3)) });
 }
 
+// A light map holds no shadows of a ground, which is no part of the file.
+export function chooseTechnique(technique, store) {
+  if (technique === 'lightMap') store.clearSpec('ground');
+  store.setSpec('shadow.technique', technique);
+}
+
 // A hard edge has no radius, and pcss takes the light's own size.
 function chooseFilter(type, store) {
   if (type === 'hard' || type === 'pcss') store.clearSpec('shadow.filter.radius');
@@ -118,8 +124,9 @@ export const kSections = [
           ['shadowMap', 'Maps', 'Shadow maps: fast, as sharp as their texels'],
           ['rayTraced', 'Rays', 'Exact: rays for every pixel in doubt'],
           ['shadowVolume', 'Volumes', 'Exact, by the stencil buffer; drawn by OpenGL alone'],
-          ['lightMap', 'Baked', 'Traced once into a texture of the surfaces, then only looked up; nothing may move'],
+          ['lightMap', 'Baked', 'Traced once into a texture of the surfaces, then only looked up; nothing may move, and there is no ground'],
         ],
+        choose: chooseTechnique,
         needs: shadowed,
       },
       { path: 'shadow.raySamples', label: 'Rays a pixel', says: 'At most, in the penumbra of a light that has a size', choices: [[4, '4'], [12, '12'], [32, '32'], [128, '128']], needs: (store) => by('auto', 'rayTraced')(store) && lightHasSize(store) },

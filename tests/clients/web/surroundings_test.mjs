@@ -65,6 +65,14 @@ test('a ground and shadows of the surroundings are there or not', () => {
   assert.deepEqual(store.state.spec, {});
 });
 
+test('a light map goes without a ground', () => {
+  const store = createStore(stateOf({ ground: { mode: 'catcher' } }));
+  fieldOf('shadow.technique').choose('rayTraced', store);
+  assert.deepEqual(store.state.spec, { ground: { mode: 'catcher' }, shadow: { technique: 'rayTraced' } });
+  fieldOf('shadow.technique').choose('lightMap', store);
+  assert.deepEqual(store.state.spec, { shadow: { technique: 'lightMap' } });
+});
+
 test('another scene has not the picture of the one before, and no height of its ground', () => {
   const spec = { environment: { file: 'a.hdr', shadows: 'rays' }, ground: { mode: 'catcher', height: 3, size: 20 } };
   assert.deepEqual(withoutScene(spec), { environment: { shadows: 'rays' }, ground: { mode: 'catcher' } });
