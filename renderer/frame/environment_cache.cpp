@@ -2,6 +2,7 @@
 
 #include "renderer/environment/make_environment.h"
 #include "renderer/environment/read_environment.h"
+#include "renderer/environment/sky_model.h"
 
 namespace gnomon {
 
@@ -16,6 +17,14 @@ Result<std::shared_ptr<const Environment>> EnvironmentCache::get(const std::shar
       {file, extraction, std::make_shared<const Environment>(makeEnvironment(*std::move(map), extraction))});
   entries_.eraseIf([](const Entry& entry) { return entry.file.expired(); });
   entries_.keepWithin(budgetBytes_, [](const Entry& entry) { return bytesIn(*entry.environment); });
+  return added.environment;
+}
+
+std::shared_ptr<const Environment> EnvironmentCache::get(const Sky& sky) {
+  constexpr std::size_t kMostSkies = 8; // of 1.5 MB; a day of the sun needs another one each frame
+  if (const SkyEntry* found = skies_.find(sky, &SkyEntry::sky)) return found->environment;
+  const SkyEntry& added = skies_.add({sky, std::make_shared<const Environment>(skyEnvironment(sky))});
+  skies_.keepNewest(kMostSkies);
   return added.environment;
 }
 

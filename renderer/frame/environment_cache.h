@@ -19,7 +19,14 @@ class EnvironmentCache {
   /// Read and made now if need be; problems have no pointer. The newest stays, whatever its size.
   Result<std::shared_ptr<const Environment>> get(const std::shared_ptr<const Bytes>& file, SunExtraction extraction);
 
+  /// Computed now if need be. `sky`: its sun is settled.
+  std::shared_ptr<const Environment> get(const Sky& sky);
+
  private:
+  struct SkyEntry {
+    Sky sky;
+    std::shared_ptr<const Environment> environment;
+  };
   struct Entry {
     std::weak_ptr<const Bytes> file;
     SunExtraction extraction;
@@ -28,6 +35,7 @@ class EnvironmentCache {
 
   std::size_t budgetBytes_;
   LruList<Entry> entries_;
+  LruList<SkyEntry> skies_;
 };
 
 } // namespace gnomon

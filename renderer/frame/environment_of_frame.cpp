@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "renderer/core/collect.h"
+#include "renderer/environment/sky_model.h"
 
 namespace gnomon {
 
@@ -14,12 +15,17 @@ glm::dmat3 mapFromWorld(double rotationDegrees) {
 Result<FrameEnvironment> environmentOf(EnvironmentCache& cache, const SettledFrame& settled) {
   const EnvironmentOptions& options = settled.frame.spec.environment;
   FrameEnvironment environment;
-  if (!options.file) return environment;
-  auto made = cache.get(settled.loaded->environmentFiles.at(*options.file), options.extractSun);
-  if (!made) return placedAt("/environment/file", made.problems());
-  environment.environment = *std::move(made);
+  if (options.sky) {
+    environment.environment = cache.get(*options.sky);
+  } else if (options.file) {
+    auto made = cache.get(settled.loaded->environmentFiles.at(*options.file), options.extractSun);
+    if (!made) return placedAt("/environment/file", made.problems());
+    environment.environment = *std::move(made);
+  } else {
+    return environment;
+  }
   environment.mapFromWorld = mapFromWorld(options.rotationDegrees);
-  environment.intensity = options.intensity.value_or(1);
+  environment.intensity = options.intensity.value_or(options.sky ? kUsualSkyIntensity : 1);
   return environment;
 }
 

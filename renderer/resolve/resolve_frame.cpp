@@ -89,6 +89,7 @@ ResolvedFrame resolveFrame(const Scene& scene, const FrameSpec& spec, ProblemLis
                              std::to_string(frame.spec.lights->size()) + " light this frame.");
   }
   appendNightWarnings(spec, frame.warnings);
+  if (frame.spec.environment.sky) frame.spec.environment.sky->sun = settledSun(frame.spec.environment.sky->sun);
   if (frame.scene < 0) return frame;
   frame.spec.scene = spec.scene.value_or(scene.defaultScene);
   if (scene.ground && frame.spec.ground) {
