@@ -92,7 +92,7 @@ Status LocalJobs::put(const NewJob& job) {
   }
   if (use.byClient >= limits_.jobsOfClient) return tooManyJobs(limits_.jobsOfClient);
   if (use.taken >= use.capacity || bytes_ + job.request.size() > limits_.bytes) return noRoomForJobs(limits_.bytes);
-  if (!mayTakeOne(use)) return noShareOfJobs(limits_.jobs);
+  if (!mayTake(use, 1, Share::half)) return noShareOfJobs(limits_.jobs);
   auto file = ResultFile::make(directory_);
   if (!file) return std::move(file).problems();
   Entry entry{.job = job, .progress = queuedProgress(job), .file = *std::move(file)};
