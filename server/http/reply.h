@@ -142,9 +142,6 @@ struct ProblemReplyOptions {
   RefusalReason refusal = RefusalReason::none; ///< for metrics
 };
 
-/// The problems, or, where a list has none, one that says so: what refuses always has a reason.
-const Problems& atLeastOne(const Problems& problems);
-
 /// All problems as application/problem+json (RFC 9457), with the status of the first. `instance` is the request's id.
 HttpReply problemReply(const Problems& problems, std::string_view instance, const ProblemReplyOptions& options = {});
 
