@@ -112,6 +112,8 @@ struct HttpReply {
   bool bodyOmitted = false;      ///< HEAD whose body was not made: no Content-Length is sent
   std::vector<StageTime> stages; ///< for the log
   std::string key;               ///< for the log: the name of the key that the client has
+  ClientIdentity client{};       ///< whose bytes the reply takes; without a name the one of its address
+  ByteBudget* memory = nullptr;  ///< of which `stream` holds bytes until it is taken, beside those for replies
   std::string problem;           ///< for the log: the first problem's detail, as the client reads it
   std::string route;             ///< for metrics: that of RequestHandler, where the reply is a refusal of it
   RefusalReason refusal = RefusalReason::none; ///< for metrics
