@@ -120,7 +120,7 @@ Result<std::shared_ptr<const Scene>> loadGltf(const SceneBundle& bundle, const L
   try {
     return load(bundle, limits, id, known);
   } catch (const std::bad_alloc&) {
-    return Problem{ProblemCode::tooLarge, {}, "There is not enough memory for this scene."};
+    return noMemory({}, "There is not enough memory for this scene.");
   } catch (const std::exception&) {
     return Problem{ProblemCode::internal, {}, "The scene could not be loaded."};
   }
