@@ -38,6 +38,7 @@ export const kSurroundings = {
     { path: 'environment.sky.turbidity', label: 'Haze', says: '2 = clear air in the mountains, 3 = a clear day, 10 = hazy', slider: [1, 10, 0.1], absent: 3, needs: isLitBy('sky') },
     { path: 'environment.rotationDegrees', label: 'Rotate', unit: '°', says: 'About the vertical axis, clockwise as seen from above', slider: [0, 360, 1], absent: 0, needs: isLitBy('file') },
     { path: 'environment.intensity', label: 'Intensity', says: 'Its light is multiplied by this', slider: [0, 4, 0.01], absent: 1, needs: isLitBy('file') },
+    { path: 'environment.intensity', label: 'Intensity', says: 'Its light, in lux, is multiplied by this', log: true, slider: [1e-6, 1e-3, 0.01], absent: 3e-5, needs: isLitBy('sky') },
     { path: 'environment.background', label: 'Behind', says: 'What is seen of it behind the scene', choices: [['none', 'Nothing'], ['environment', 'Sharp'], ['blurred', 'Blurred']], absent: 'none', needs: isLitBy('file', 'sky') },
     { path: 'environment.extractSun', label: 'Its sun', says: 'What becomes of the brightest disc', choices: [['auto', 'A light', 'With a color, a size and a sharp shadow'], ['none', 'In the picture']], absent: 'auto', needs: isLitBy('file') },
     { path: 'environment.shadows', label: 'Sky shadows', says: 'Rays find what the scene hides of this light', toggle: true, value: hasSkyShadows, choose: chooseSkyShadows },
