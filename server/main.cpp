@@ -33,12 +33,17 @@ std::vector<std::string> knownVariables(const CLI::App& app) {
   return known;
 }
 
-/// Adds faults of options, each with its line where the file has set one of them. Options that have faults of their own
-/// are passed over.
+/// Adds faults of options, each with its line where the file has set one of them. What follows from a value that is
+/// wrong by itself is passed over.
 void addFaults(const std::vector<OptionFault>& found, const AppliedConfig& applied, std::vector<std::string>& faults) {
+  const auto isWrong = [&](std::string_view name) {
+    const auto isOwn = [&](const OptionFault& each) { return each.options.size() == 1 && each.options[0] == name; };
+    return std::any_of(found.begin(), found.end(), isOwn);
+  };
   for (const OptionFault& fault : found) {
     const auto& names = fault.options;
     if (std::any_of(names.begin(), names.end(), [&](auto name) { return applied.faulty.contains(name); })) continue;
+    if (names.size() > 1 && std::any_of(names.begin(), names.end(), isWrong)) continue;
     const auto inFile =
         std::find_if(names.begin(), names.end(), [&](auto name) { return applied.places.contains(name); });
     faults.push_back((inFile == names.end() ? "" : applied.places.find(*inFile)->second + ": ") + fault.detail);
@@ -51,8 +56,8 @@ int serveAsAsked(const CLI::App& app, CLI::App& command, const ConfigChoice& con
   const AppliedConfig applied = config.file.empty() ? AppliedConfig() : applyConfig(command, config.file);
   faults.insert(faults.end(), applied.faults.begin(), applied.faults.end());
   std::vector<OptionFault> found = conflictsOf(options);
-  ServeInputs inputs;
-  if (!config.print) inputs = readInputs(options, found);
+  ServeInputs inputs = readAddresses(options, found);
+  if (!config.print) readFiles(options, inputs, found);
   addFaults(found, applied, faults);
   for (const std::string& fault : faults) std::fprintf(stderr, "gnomon: %s\n", fault.c_str());
   if (!faults.empty()) return cli::kExitUsage;

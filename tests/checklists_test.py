@@ -122,10 +122,15 @@ class Checklists(unittest.TestCase):
         self.assert_refused(rows, "spellsAll")
         self.edit("protocol/spec/enum_rows.h", r"spelling<FilterType::msm>\(.*?\),\n", '    spelling<FilterType::scratch>("nothing"),\n')
         self.assert_fine(rows)
-        # 2. Its row, which is all that any stage knows of it.
+        traits = '#include "protocol/spec/traits.h"\n'
+        self.assert_refused(traits, "rowsAreComplete")
+        self.edit("protocol/spec/traits.h", r"FilterTraits\{FilterType::msm,[^\n]*\n",
+                  "    FilterTraits{FilterType::scratch, true, false, 4},\n")
+        self.assert_fine(traits)
+        # 2. How it reads the map: of all stages this one alone knows it.
         self.assert_refused(kernel, "rowsAreComplete")
-        self.edit("renderer/shadow/filter_kernel.cpp", r"FilterTraits\{FilterType::msm,[^\n]*\n",
-                  "    FilterTraits{FilterType::scratch, MapReadingKind::texels, MapReadingKind::disc, true, false},\n")
+        self.edit("renderer/shadow/filter_kernel.cpp", r"FilterReading\{FilterType::msm,[^\n]*\n",
+                  "    FilterReading{FilterType::scratch, MapReadingKind::texels, MapReadingKind::disc},\n")
         self.assert_fine(kernel)
         # A new way of reading maps is listed, numbered for shaders, and looked up by the processor.
         lookups = '#include "renderer/cpu/shadow/map_queries.cpp"\n'

@@ -9,14 +9,14 @@ import { fromHash, toHash } from './deep_link.mjs';
 import { element } from './dom.mjs';
 import { createErrorPanel } from './error_panel.mjs';
 import { createEvaluationPanel } from './evaluation_panel.mjs';
-import { kSections } from './fields.mjs';
+import { chooseTechnique, kSections } from './fields.mjs';
 import { createFrameLoop } from './frame_loop.mjs';
 import { lightsWithSun } from './light_math.mjs';
 import { createLightsPanel } from './lights_panel.mjs';
 import { createMotionPanel } from './motion_panel.mjs';
 import { createNodesPanel } from './nodes_panel.mjs';
 import { kFovYDegrees, kWholeScene, orbitInForce } from './orbit_math.mjs';
-import { setPath } from './paths.mjs';
+import { removePath, setPath } from './paths.mjs';
 import { createPicture } from './picture.mjs';
 import { createPlanOverlay } from './plan_overlay.mjs';
 import { createProblems } from './problems.mjs';
@@ -28,6 +28,8 @@ import { draftSpec, fullSpec, pictureSize } from './spec.mjs';
 import { attachOrbit } from './stage.mjs';
 import { createStore } from './store.mjs';
 import { createSunPanel } from './sun_panel.mjs';
+import { isPanorama, kFirstGround, litByFile } from './surroundings_math.mjs';
+import { createSurroundingsPanel } from './surroundings_panel.mjs';
 import { createTargetPanel } from './target_panel.mjs';
 import { createTimings } from './timings.mjs';
 import { createViewChoice } from './view_choice.mjs';
@@ -168,29 +170,34 @@ const scenePanel = createScenePanel({
 });
 byId('empty-upload').addEventListener('click', () => byId('files').click());
 
-// What a link says of its scene stays with it, also with the file of another volume; another scene starts with its own
-// camera and light, where it has any, and with nothing of the one before.
-function showScene(summary, added) {
+// What a link says of its scene stays with it, also with a file that was added; another scene starts with its own
+// camera and light, where it has any, and with nothing of the one before. The first one of all stands on a ground.
+function showScene(summary, { added, panorama }) {
   problems.clear();
   const { sceneId, spec } = store.state;
   const same = Boolean(added) || sceneId === summary.id;
-  const next = same ? { ...spec } : withoutScene(spec);
+  let next = same ? { ...spec } : withoutScene(spec);
+  if (!store.state.summary && !same) next.ground ??= kFirstGround;
   next.camera ??= summary.cameras.length ? { node: cameraName(summary.cameras[0]) } : { orbit: kWholeScene };
   if (!next.lights && !summary.lights.length) next.lights = lightsWithSun({ spec: {}, report: null }, {});
-  if (added) next.volumes = withFile(store.state, added);
-  store.update({ sceneId: summary.id, summary, spec: next, report: null, cameraShown: null, freshVolume: Boolean(added) });
+  const picture = panorama ?? (added && isPanorama({ name: added }) ? added : null);
+  const grid = picture ? null : added;
+  if (grid) next.volumes = withFile(store.state, grid);
+  if (picture) next = litByFile({ spec: next }, picture);
+  store.update({ sceneId: summary.id, summary, spec: next, report: null, cameraShown: null, freshVolume: Boolean(grid) });
 }
 
 byId('sun').append(createSunPanel(store), createLightsPanel(store));
 const panels = {
   bake: createBakePanel(store, {
-    specOf: () => setPath(setPath(sharpSpec(), 'shadow.technique', 'lightMap'), 'shadow.enabled', true),
-    done: () => store.setSpec('shadow.technique', 'lightMap'),
+    specOf: () => setPath(setPath(removePath(sharpSpec(), 'ground'), 'shadow.technique', 'lightMap'), 'shadow.enabled', true),
+    done: () => chooseTechnique('lightMap', store),
     problems,
   }),
   evaluation: createEvaluationPanel(store, { specOf: sharpSpec, problems, announce }),
   motion: createMotionPanel(store),
   nodes: createNodesPanel(store),
+  surroundings: createSurroundingsPanel(store, scenePanel.addFiles),
   target: createTargetPanel(store),
   volume: createVolumePanel(store, scenePanel.addFiles),
 };

@@ -112,7 +112,7 @@ function select({ options, choose }, store, id) {
     const list = options(store);
     if (JSON.stringify(list) !== shown) node.replaceChildren(...list.map(([each, text]) => element('option', { value: each }, text)));
     shown = JSON.stringify(list);
-    node.value = value ?? list[0][0];
+    node.value = value ?? list[0]?.[0] ?? '';
   };
   return { node, show };
 }

@@ -4,6 +4,8 @@
 // gives it a row of its own; `keeps` has no default to go back to; `value(store)` is what is shown where that is not the
 // field itself; `log` makes a slider's steps equal ratios. `panel` is what else a section holds (app.mjs).
 
+import { kSurroundings } from './surroundings_fields.mjs';
+import { sourceOf } from './surroundings_math.mjs';
 import { withFile } from './volume_math.mjs';
 
 const shadowed = (store) => store.effective('shadow.enabled') !== false;
@@ -20,6 +22,12 @@ function chooseDepthRange(mode, store) {
   if (mode === 'automatic') return store.clearSpec('shadow.depthRange');
   const far = store.state.report?.depthRange[1] || 50;
   store.setSpec('shadow.depthRange', { mode, min: 0, max: Number(far.toPrecision(3)) });
+}
+
+// A light map holds no shadows of a ground, which is no part of the file.
+export function chooseTechnique(technique, store) {
+  if (technique === 'lightMap') store.clearSpec('ground');
+  store.setSpec('shadow.technique', technique);
 }
 
 // A hard edge has no radius, and pcss takes the light's own size.
@@ -85,16 +93,24 @@ const volumeFiles = ({ state }) => [['', 'None'], ...(state.summary?.volumeFiles
 const hasVolume = (store) => store.isSet('volumes.0.file');
 const hasBox = (store) => store.isSet('volumes.0.box'); // and not a matrix, or a node alone
 
+const kToneMappings = [
+  ['neutral', 'Neutral', 'Colors of surfaces stay, highlights alone are compressed'],
+  ['aces', 'ACES', 'A film-like curve'],
+  ['agx', 'AgX', 'Soft contrast, bright colors fade to white'],
+  ['none', 'None', 'Unchanged, clipped at 1'],
+];
+
 export const kSections = [
   {
     title: 'Light',
     fields: [
       { path: 'shadowLightPolicy', label: 'Shadows of', choices: [['all', 'All lights'], ['first', 'First sun']], says: 'Which lights cast shadows' },
-      { path: 'ambient.intensity', label: 'Ambient', slider: [0, 3, 0.01], says: 'Light from the surroundings' },
+      { path: 'ambient.intensity', label: 'Ambient', slider: [0, 3, 0.01], says: 'Light of the studio', needs: ({ state }) => sourceOf(state) === 'studio' },
       { path: 'exposure', label: 'Exposure', says: 'Stops', slider: [-6, 6, 0.1] },
-      { path: 'toneMapping', label: 'Tone', choices: [['aces', 'ACES'], ['none', 'None']] },
+      { path: 'toneMapping', label: 'Tone', choices: kToneMappings },
     ],
   },
+  kSurroundings,
   {
     title: 'Shadows',
     fields: [
@@ -108,8 +124,9 @@ export const kSections = [
           ['shadowMap', 'Maps', 'Shadow maps: fast, as sharp as their texels'],
           ['rayTraced', 'Rays', 'Exact: rays for every pixel in doubt'],
           ['shadowVolume', 'Volumes', 'Exact, by the stencil buffer; drawn by OpenGL alone'],
-          ['lightMap', 'Baked', 'Traced once into a texture of the surfaces, then only looked up; nothing may move'],
+          ['lightMap', 'Baked', 'Traced once into a texture of the surfaces, then only looked up; nothing may move, and there is no ground'],
         ],
+        choose: chooseTechnique,
         needs: shadowed,
       },
       { path: 'shadow.raySamples', label: 'Rays a pixel', says: 'At most, in the penumbra of a light that has a size', choices: [[4, '4'], [12, '12'], [32, '32'], [128, '128']], needs: (store) => by('auto', 'rayTraced')(store) && lightHasSize(store) },

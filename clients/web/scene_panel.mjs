@@ -4,10 +4,11 @@ import { Refusal, scenePages, uploadScene } from './api.mjs';
 import { count, element, short } from './dom.mjs';
 import { chosenFiles, droppedFiles } from './drop_files.mjs';
 import { nameOf, rememberName } from './scene_names.mjs';
+import { isPanorama } from './surroundings_math.mjs';
 import { isGrid } from './volume_math.mjs';
 
-// `pick(summary, added)` when another scene is to be shown, `added` being the name of a volume that the present one
-// has got; `fail(error)` for what goes wrong.
+// `pick(summary, {added, panorama})` when another scene is to be shown: `added` is the name of a file that the present
+// one has got, `panorama` that of a picture that came with a new one; `fail(error)` for what goes wrong.
 export function createScenePanel({ list, button, input, progress, facts, dropZone, pick, fail }) {
   let scenes = [];
   const sources = new Map(); // what was uploaded from here, by the scene's id
@@ -32,22 +33,22 @@ export function createScenePanel({ list, button, input, progress, facts, dropZon
     if (!scenes.length) list.append(element('option', {}, 'No scene yet'));
   }
 
-  function show(summary, added) {
+  function show(summary, files = {}) {
     list.value = summary.id;
     facts.replaceChildren(...factsOf(summary));
-    pick(summary, added);
+    pick(summary, files);
   }
 
   // A scene is all of its upload, so that the same files go up again, with these.
   async function addFiles(files) {
     const own = sources.get(list.value);
-    if (!own) return fail(new Refusal(0, 'The files of this scene were not chosen on this page. Choose or drop them together with the volume.', []));
+    if (!own) return fail(new Refusal(0, 'The files of this scene were not chosen on this page. Choose or drop them together with what is added.', []));
     await upload([...own.filter(({ name }) => !files.some((file) => file.name === name)), ...files], files[0].name);
   }
 
   async function upload(files, added) {
     if (!files.length) return;
-    if (files.every(isGrid)) return addFiles(files);
+    if (files.every(isAdded)) return addFiles(files);
     progress.hidden = false;
     progress.value = 0;
     button.disabled = true;
@@ -60,7 +61,7 @@ export function createScenePanel({ list, button, input, progress, facts, dropZon
       sources.set(summary.id, files);
       scenes = [summary, ...scenes.filter(({ id }) => id !== summary.id)];
       fillList();
-      show(summary, added);
+      show(summary, { added, panorama: !added && files.some(isPanorama) ? summary.environmentFiles?.[0] : undefined });
     } catch (error) {
       fail(error);
     } finally {
@@ -81,6 +82,9 @@ export function createScenePanel({ list, button, input, progress, facts, dropZon
   acceptDrops(dropZone, upload);
   return { load, addFiles };
 }
+
+// What is no scene by itself.
+const isAdded = (file) => isGrid(file) || isPanorama(file);
 
 function acceptDrops(zone, upload) {
   const holdsFiles = (event) => event.dataTransfer?.types.includes('Files');

@@ -6,7 +6,7 @@ import { removePath } from './paths.mjs';
 // something else, or nothing, for which the frame would be refused.
 const kOfTheScene = [
   'camera', 'lights', 'nodes', 'animation', 'scene', 'materialVariant', 'motionFrom', 'volumes', 'debug',
-  'shadow.depthRange', 'shadow.bias', 'shadow.filter.radius',
+  'environment.file', 'shadow.depthRange', 'shadow.bias', 'shadow.filter.radius', 'ground.height', 'ground.size',
 ];
 
 export const withoutScene = (spec) => kOfTheScene.reduce(removePath, spec);

@@ -39,6 +39,7 @@ export function draftSpec(state, size, scale) {
   const output = { ...full.output, ...kDraftFile };
   const draft = { ...full, width: side(full.width), height: side(full.height), antialiasing: 'none', output };
   if (draft.shadow?.raySamples > 4) draft.shadow = { ...draft.shadow, raySamples: 4 };
+  if (draft.environment?.shadows === 'rays') draft.environment = { ...draft.environment, samples: 1 };
   if (scale <= kCoarse) draft.atlas = { ...draft.atlas, baseSize: Math.min(512, draft.atlas?.baseSize ?? 512) };
   const { cascadeCount = 4, partition } = draft.shadow ?? {};
   if (scale <= kCoarsest && partition?.mode !== 'manual') draft.shadow = { ...draft.shadow, cascadeCount: Math.min(2, cascadeCount) };

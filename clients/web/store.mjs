@@ -4,6 +4,7 @@
 //   spec     the part of the FrameSpec that the user chose; what is absent is the server's default
 //   summary  of the scene, or null
 //   freshVolume  its file was just chosen: the values in it are to set the scale of its density
+//   askPanorama  a picture of all directions is to be chosen
 //   report   of the last frame, or null; its spec has every default resolved
 //   cameraShown  the spec's camera of the last frame, or null
 

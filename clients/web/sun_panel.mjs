@@ -1,8 +1,9 @@
-// Where the light comes from: the dome and two exact angles for the sun, or the scene's own lights.
+// Where the light comes from: the dome and two exact angles for the sun, the sky's where there is one, or the scene's own
+// lights.
 
 import { choices, slider } from './controls.mjs';
 import { element } from './dom.mjs';
-import { lightsWithSun, sunInForce } from './light_math.mjs';
+import { sunInForce, withSun } from './light_math.mjs';
 import { orbitInForce } from './orbit_math.mjs';
 import { createSkyDome } from './sky_dome.mjs';
 
@@ -10,7 +11,7 @@ const kAzimuth = { path: 'lights.0.sun.azimuthDegrees', label: 'Azimuth', slider
 const kElevation = { path: 'lights.0.sun.elevationDegrees', label: 'Elevation', slider: [0, 90, 0.5] };
 
 export function createSunPanel(store) {
-  const setSun = (sun) => store.setSpec('lights', lightsWithSun(store.state, sun));
+  const setSun = (sun) => store.update({ spec: withSun(store.state, sun) });
   const dome = createSkyDome(setSun);
   const source = choices(
     {
@@ -31,12 +32,13 @@ export function createSunPanel(store) {
 
   store.subscribe((state) => {
     const { spec, summary } = state;
+    const sky = Boolean(spec.environment?.sky);
     const bySun = Boolean(spec.lights);
     const sun = sunInForce(state);
     const orbit = orbitInForce(state);
     source.show(bySun);
-    source.node.hidden = !summary?.lights.length && bySun;
-    dome.show(sun, { dimmed: !bySun, headingDegrees: orbit ? orbit.azimuthDegrees + 180 : null });
+    source.node.hidden = sky || (!summary?.lights.length && bySun);
+    dome.show(sun, { dimmed: !sky && !spec.lights?.length, headingDegrees: orbit ? orbit.azimuthDegrees + 180 : null });
     for (const control of angles) control.show(sun);
   });
   return node;
@@ -46,7 +48,7 @@ export function createSunPanel(store) {
     const proxy = { setSpec: (_, value) => setSun({ [key]: value }) };
     const input = slider(field, proxy, `sun-${key}`);
     const label = element('label', { class: 'label', for: `sun-${key}` }, field.label, element('span', { class: 'unit' }, ' °'));
-    const row = element('div', { class: 'field slider', 'data-pointer': `/lights/0/sun/${key}` }, element('div', { class: 'caption' }, label), input.node, problemSlot());
+    const row = element('div', { class: 'field slider', 'data-pointer': `/lights/0/sun/${key} /environment/sky/sun/${key}` }, element('div', { class: 'caption' }, label), input.node, problemSlot());
     return { row, show: (sun) => input.show(sun[key]) };
   }
 }

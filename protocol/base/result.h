@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cassert>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -21,7 +20,7 @@ enum class ProblemCode {
   notAcceptable,        ///< no view or format matches the Accept header
   preconditionFailed,   ///< what If-Match names is not what there is
   lengthRequired,       ///< a body without Content-Length where one is needed
-  tooLarge,             ///< a limit on bytes, pixels, triangles or nodes was passed
+  tooLarge,             ///< a limit on bytes, pixels, triangles or nodes was passed; or noMemory()
   unsupportedMediaType, ///< a Content-Type that the route does not take
   invalidScene,         ///< a glTF that breaks its own rules
   unsupportedFeature,   ///< a valid request or glTF that needs what Gnomon does not have
@@ -47,7 +46,22 @@ inline Problem invalidValue(std::string pointer, std::string detail, std::string
   return {ProblemCode::invalidValue, std::move(pointer), std::move(detail), std::move(limit), std::move(actual)};
 }
 
+/// The system gave no memory for it. Such a problem names no limit; every other one of its code does.
+inline Problem noMemory(std::string pointer, std::string detail) {
+  return {ProblemCode::tooLarge, std::move(pointer), std::move(detail), {}, {}};
+}
+
+inline bool isNoMemory(const Problem& problem) {
+  return problem.code == ProblemCode::tooLarge && problem.limit.empty();
+}
+
 using Problems = std::vector<Problem>;
+
+/// The problems, or, where a list has none, one that says so: what fails always has a reason.
+inline Problems atLeastOne(Problems problems) {
+  if (problems.empty()) problems.push_back({.detail = "It failed without a reason."});
+  return problems;
+}
 
 /// Collects what is wrong with an input, up to a bound, so that a hostile one can't grow the reply without end.
 class ProblemList {
@@ -79,13 +93,13 @@ class ProblemList {
   std::size_t leftOut_ = 0;
 };
 
-/// A value, or the problems that prevented it (at least one).
+/// A value, or the problems that prevented it: at least one, since a list without any becomes `internal`.
 template <class T>
 class [[nodiscard]] Result {
  public:
   Result(T value) : state_(std::move(value)) {}
   Result(Problem problem) : state_(Problems{std::move(problem)}) {}
-  Result(Problems problems) : state_(std::move(problems)) { assert(!std::get<1>(state_).empty()); }
+  Result(Problems problems) : state_(atLeastOne(std::move(problems))) {}
 
   explicit operator bool() const { return state_.index() == 0; }
 

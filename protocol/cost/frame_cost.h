@@ -31,8 +31,6 @@ std::vector<Light> settledLights(const FrameSpec& spec, const SceneCounts& scene
 
 /// Texels of all tiles of `light`, as if it showed in all of the picture: as many as there can be.
 double tileTexels(const Light& light, const FrameSpec& spec);
-/// Whether what the filter reads is made of a tile's depths: moments.
-bool hasMoments(const Filter& filter);
 
 /// Of drawing all tiles of `light` as if it showed in all of the picture.
 double tileCost(const Light& light, const FrameSpec& spec, std::uint64_t triangles);

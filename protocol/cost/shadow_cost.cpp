@@ -5,6 +5,7 @@
 #include "protocol/base/text.h"
 #include "protocol/cost/frame_cost.h"
 #include "protocol/spec/frame_lights.h"
+#include "protocol/spec/traits.h"
 
 namespace gnomon {
 namespace {
@@ -29,18 +30,9 @@ constexpr double kFasterMaps = 0.05; ///< by a GPU
 
 /// Texels that a filter reads for a pixel, about.
 double tapsOf(const Filter& filter) {
-  switch (filter.type) {
-    case FilterType::hard:
-    case FilterType::vsm:
-    case FilterType::evsm:
-    case FilterType::msm:
-      return 4;
-    case FilterType::pcf:
-      return filter.radius ? 32 : static_cast<double>(filter.size) * filter.size;
-    case FilterType::pcss:
-      return 64;
-  }
-  return 4;
+  constexpr double kDisc = 32;
+  if (const int taps = traitsOf(filter.type).taps; taps > 0) return taps;
+  return filter.radius ? kDisc : static_cast<double>(filter.size) * filter.size;
 }
 
 /// As if the light showed in all of the picture.
@@ -67,10 +59,6 @@ double pixelsOf(const FrameSpec& spec) {
   return static_cast<double>(spec.width) * spec.height;
 }
 
-bool hasMoments(const Filter& filter) {
-  return filter.type == FilterType::vsm || filter.type == FilterType::evsm || filter.type == FilterType::msm;
-}
-
 double tileTexels(const Light& light, const FrameSpec& spec) {
   const double room = static_cast<double>(spec.atlas.size) * spec.atlas.size;
   return std::min(tileCount(light) * tileSide(light, spec) * tileSide(light, spec), room);
@@ -81,7 +69,7 @@ double tileCost(const Light& light, const FrameSpec& spec, std::uint64_t triangl
   const auto count = static_cast<double>(triangles);
   const double rows = std::sqrt(texels * spec.atlas.samples);
   return tileCount(light) * count * kTileTriangle + rows * kTileRow * std::pow(count, kTileGrowth) +
-         (hasMoments(light.shadow->filter) ? texels * kBlurredTexel : 0.0);
+         (traitsOf(light.shadow->filter.type).moments ? texels * kBlurredTexel : 0.0);
 }
 
 double lookupOfPixel(const Filter& filter) {

@@ -136,6 +136,7 @@ struct PassReport {
   std::optional<double> gpuMilliseconds{};
   std::uint64_t drawCalls = 0;
   std::uint64_t triangles = 0;
+  std::optional<std::uint64_t> rays{};
 };
 
 /// Bytes on the device. Driver padding is not known, and not counted.

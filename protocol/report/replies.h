@@ -88,6 +88,7 @@ struct SceneSummary {
   std::vector<AnimationSummary> animations{};
   std::vector<std::string> materialVariants{};
   std::vector<std::string> volumeFiles{};
+  std::vector<std::string> environmentFiles{};
   std::vector<std::string> extensionsUsed{};
   std::vector<std::string> extensionsIgnored{};
   std::vector<std::string> warnings{};

@@ -64,6 +64,8 @@ inline constexpr auto kRows<SceneSummary> = replyRows(
     field<&SceneSummary::animations>("The file's animations, in the order of their indices."),
     field<&SceneSummary::materialVariants>("Names of the file's material variants, for `materialVariant`."),
     field<&SceneSummary::volumeFiles>("Names of the upload's .npy and .vdb files, which a frame's `volumes` may show."),
+    field<&SceneSummary::environmentFiles>(
+        "Names of the upload's .hdr and .exr files, which a frame's `environment` may name."),
     field<&SceneSummary::extensionsUsed>("glTF extensions that the file names."),
     field<&SceneSummary::extensionsIgnored>("Those that are not supported; the warnings say how that shows."),
     field<&SceneSummary::warnings>("What the file holds that is ignored or drawn differently."));
@@ -100,6 +102,10 @@ inline constexpr auto kRows<Limits> = replyRows(
     field<&Limits::maxVolumeSide>("Longest axis of a volume's grid, without the empty ends of a .vdb.",
                                   {.unit = "voxels"}),
     field<&Limits::maxVolumeVoxels>("A volume's grid.", {.unit = "voxels"}),
+    field<&Limits::minEnvironmentWidth>("Least width of an environment's file, which is twice its height.",
+                                        {.unit = "texels"}),
+    field<&Limits::maxEnvironmentWidth>("Greatest width of an environment's file.", {.unit = "texels"}),
+    field<&Limits::maxRadiance>("Greatest number in an environment's file."),
     field<&Limits::maxVariants>("Variants of one evaluation."),
     field<&Limits::maxPathFrames>("Cameras along the path of an evaluation."),
     field<&Limits::maxSequenceFrames>("Frames of one sequence."),

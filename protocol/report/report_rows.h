@@ -119,7 +119,8 @@ inline constexpr auto kRows<PassReport> = replyRows(
     "PassReport", "One pass of a frame.",
     field<&PassReport::pass>(
         "survey (what the camera sees), shadow (all tiles), surfaces (what each sample shows; once for each number of "
-        "samples a pixel that the views need), volumes (clouds and their shadow), visibility (what rays and shadow "
+        "samples a pixel that the views need), volumes (clouds and their shadow), sky (rays to the environment), "
+        "visibility (what rays and shadow "
         "volumes decide), these as often as surfaces, or view."),
     field<&PassReport::view>("Which view; only for pass view."),
     field<&PassReport::cpuMilliseconds>(
@@ -128,7 +129,8 @@ inline constexpr auto kRows<PassReport> = replyRows(
         "Time between its beginning and end on the device, as the driver reports it; a software driver reports the "
         "CPU's clock, which includes what other passes left to do. Absent if the driver has no timer.",
         {.unit = "milliseconds"}),
-    field<&PassReport::drawCalls>("Draw calls."), field<&PassReport::triangles>("Triangles drawn."));
+    field<&PassReport::drawCalls>("Draw calls."), field<&PassReport::triangles>("Triangles drawn."),
+    field<&PassReport::rays>("Rays sent; only for pass sky."));
 
 template <>
 inline constexpr auto kRows<MemoryReport> =

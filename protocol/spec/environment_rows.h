@@ -69,14 +69,17 @@ inline constexpr auto kRows<EnvironmentOptions> =
         .withAlternatives({"file", "sky"});
 
 template <>
-inline constexpr auto kRows<Ground> =
-    rows("Ground", "A horizontal plane under the scene, seen from above alone.",
-         field<&Ground::height>("Its height; absent = that of the lowest point that is seen, as posed.",
-                                {.unit = "metres", .range = kPositionRange}),
-         field<&Ground::mode>("What is seen of it."),
-         field<&Ground::color>("Linear red, green and blue; mode surface alone.", {.range = kUnitRange}),
-         field<&Ground::roughness>("0 = a mirror, 1 = matt; mode surface alone.", {.range = kUnitRange}),
-         field<&Ground::size>("Length of its sides; absent = ten times the scene's largest side.",
-                              {.unit = "metres", .range = kLengthRange}));
+inline constexpr auto kRows<Ground> = rows(
+    "Ground", "A horizontal plane under the scene, seen from above alone.",
+    field<&Ground::height>("Its height; absent = a hair below the lowest point that is seen, as posed.",
+                           {.unit = "metres", .range = kPositionRange}),
+    field<&Ground::mode>("What is seen of it."),
+    field<&Ground::color>("Linear red, green and blue. In mode catcher view color doesn't show it, other views do.",
+                          {.range = kUnitRange}),
+    field<&Ground::roughness>("0 = a mirror, 1 = matt. In mode catcher view color doesn't show it, other views do.",
+                              {.range = kUnitRange}),
+    field<&Ground::size>("Length of its sides; absent = ten times the scene's largest side, of a catcher less "
+                         "where no shadow can fall farther out.",
+                         {.unit = "metres", .range = kLengthRange}));
 
 } // namespace gnomon

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "protocol/spec/limits.h"
+#include "protocol/spec/settled_sun.h"
 #include "protocol/spec/traits.h"
 
 namespace gnomon {
@@ -17,7 +18,7 @@ std::vector<Light> chosenLights(const FrameSpec& spec, std::span<const Light> of
   lights.resize(std::min(lights.size(), static_cast<std::size_t>(kLimits.maxLights)));
   if (lights.empty()) {
     Light sun;
-    sun.sun = Sun{};
+    sun.sun.emplace();
     lights.push_back(sun);
   }
   return lights;
@@ -28,6 +29,10 @@ std::vector<Light> chosenLights(const FrameSpec& spec, std::span<const Light> of
 std::vector<Light> lightsOf(const FrameSpec& spec, std::span<const Light> ofScene) {
   std::vector<Light> lights = chosenLights(spec, ofScene);
   for (Light& light : lights) {
+    if (light.sun) {
+      if (isNight(*light.sun)) light.intensity = 0;
+      light.sun = settledSun(*light.sun);
+    }
     if (!light.color && !light.temperatureKelvin) light.color = Vec3{1, 1, 1};
     if (!light.shadow) light.shadow = spec.shadow;
     if (!light.shadow->size) light.shadow->size = traitsOf(light.type).usualSize;

@@ -12,7 +12,8 @@
 namespace gnomon {
 
 /// The request's lights, else the first kLimits.maxLights of the scene's own, else one sun. What they leave open is
-/// set: their shadow is the frame's, a tile's size that of the light's type.
+/// set: their shadow is the frame's, a tile's size that of the light's type, a sun has azimuth and elevation. A sun by
+/// place and time has intensity 0 at night.
 std::vector<Light> lightsOf(const FrameSpec& spec, std::span<const Light> ofScene);
 
 /// Gives off light: else it has no shadow to be seen.

@@ -28,6 +28,10 @@ struct Limits {
   std::int64_t maxVolumeSide = 2048;
   std::int64_t maxVolumeVoxels = 134'217'728;
 
+  int minEnvironmentWidth = 8;
+  int maxEnvironmentWidth = 8192;
+  double maxRadiance = 1e9;
+
   // Evaluations
   std::size_t maxVariants = 128;
   std::size_t maxPathFrames = 600;

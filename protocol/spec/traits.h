@@ -130,6 +130,31 @@ constexpr const TechniqueTraits& traitsOf(ShadowTechnique technique) {
   return kTechniqueTraits[static_cast<std::size_t>(technique)];
 }
 
+/// What a filter of shadow maps is, whatever its size: one row each, complete by static_assert.
+struct FilterTraits {
+  FilterType type;
+  bool sized;   ///< size and radius have a meaning
+  bool moments; ///< what it reads is made of depths before: their moments, blurred
+  int taps;     ///< texels that it reads for a pixel, about; 0 = as its size or radius has it
+};
+
+// clang-format off
+inline constexpr std::array kFilterTraits{
+    //           type              sized  moments taps
+    FilterTraits{FilterType::hard, false, false,  4},
+    FilterTraits{FilterType::pcf,  true,  false,  0},
+    FilterTraits{FilterType::vsm,  true,  true,   4},
+    FilterTraits{FilterType::evsm, true,  true,   4},
+    FilterTraits{FilterType::msm,  true,  true,   4},
+    FilterTraits{FilterType::pcss, false, false,  64},
+};
+// clang-format on
+static_assert(rowsAreComplete(kFilterTraits, &FilterTraits::type));
+
+constexpr const FilterTraits& traitsOf(FilterType type) {
+  return kFilterTraits[static_cast<std::size_t>(type)];
+}
+
 /// What a view's pixels are before they are encoded.
 enum class PixelType {
   bytes,  ///< 8 bits a channel, as it is seen: tone mapped, sRGB, numbers as colors or grey

@@ -12,6 +12,7 @@
 #include "renderer/cpu/shadow/probe.h"
 #include "renderer/cpu/shadow/read_texels.h"
 #include "renderer/cpu/show/read_textures.h"
+#include "renderer/device/sky_views.h"
 
 namespace gnomon::cpu {
 namespace {
@@ -88,6 +89,10 @@ const std::vector<ReadTexture>& CpuFrame::missingTextures(int samples) {
 
 Result<SeenDepths> CpuFrame::survey() {
   if (const Status made = needHoles(); !made) return made.problems();
+  if (work_.environment != nullptr && work_.environment->environment) {
+    scene_.environment = work_.environment->environment->prefiltered.texels.data();
+    setEnvironment(*work_.environment, scene_.frame);
+  }
   passStart_ = Clock::now();
   const int samples = gnomon::samplesOf(work_.frame.spec.antialiasing);
   survey_ = surveyScene(camera(), samples, work_.parts, std::exchange(shared_.storage[samples], {}));
@@ -125,6 +130,18 @@ Status CpuFrame::needLayers(int samples) {
   facts_.layers.insert(facts_.layers.end(), made->lights.begin(), made->lights.end());
   layers_.emplace(samples, std::move(*made));
   endPass("visibility", 0);
+  return Done{};
+}
+
+Status CpuFrame::needSky(int samples) {
+  if (skies_.contains(samples)) return Done{};
+  const DepthBuffer& shown = surfaces(samples);
+  passStart_ = Clock::now();
+  auto made = skyLayer(camera(), work_, shown);
+  if (!made) return made.problems();
+  endPass("sky", 0);
+  facts_.passes.back().rays = made->rays;
+  skies_.emplace(samples, std::move(*made));
   return Done{};
 }
 
@@ -213,6 +230,10 @@ Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
   if (traits.shadowed) {
     if (const Status there = needLayers(samples); !there) return there.problems();
   }
+  const bool sky = showsSkyShadow(work_, request);
+  if (sky) {
+    if (const Status there = needSky(samples); !there) return there.problems();
+  }
   if (traits.material) {
     if (const Status made = cached_.textures->need(missingTextures(samples)); !made) return made.problems();
   }
@@ -230,6 +251,7 @@ Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
     maps.volumes = {volumes->shadow.data(), shown.width, samples};
   }
   ShowJob job = jobOf(input, shown, maps);
+  if (sky) job.sky = {&skies_.at(samples).values.data()->x, shown.width, samples};
   job.view = request.view;
   job.encoded = request.encoded;
   job.tone = toneOf(work_.frame.spec.toneMapping, request.encoded);
@@ -332,6 +354,7 @@ Result<FrameFacts> CpuFrame::finish() {
   facts_.memory.targets += bytesOf(survey_.buffer);
   for (const auto& [samples, buffer] : otherSurfaces_) facts_.memory.targets += bytesOf(buffer);
   for (const auto& [samples, layers] : layers_) facts_.memory.targets += layers.bytes();
+  for (const auto& [samples, sky] : skies_) facts_.memory.targets += sky.values.size() * sizeof(sky.values[0]);
   for (const auto& [samples, layers] : volumes_) facts_.memory.targets += bytesOf(layers);
   return std::move(facts_);
 }

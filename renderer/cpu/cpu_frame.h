@@ -11,6 +11,7 @@
 #include "renderer/cpu/picture_layers.h"
 #include "renderer/cpu/scene_cache.h"
 #include "renderer/cpu/show/show_view.h"
+#include "renderer/cpu/sky_layer.h"
 #include "renderer/device/device.h"
 
 namespace gnomon::cpu {
@@ -56,6 +57,7 @@ class CpuFrame : public FrameDrawing {
   /// Of all that may be seen, where some of them were never read; none else: kernels make levels that they lack.
   const std::vector<ReadTexture>& missingTextures(int samples);
   Status needLayers(int samples);
+  Status needSky(int samples);
   const VolumeLayers* needVolumes(const ViewRequest& request); ///< null where the view knows none
   int samplesOf(const ViewRequest& request) const;             ///< a pixel
   std::vector<TexelMarks> readBy(const ShowInput& input);
@@ -80,6 +82,7 @@ class CpuFrame : public FrameDrawing {
   bool surveyShown_ = false;                        ///< its surfaces are those of a view
   std::future<void> decoding_;                      ///< of the textures, while shadows are made
   std::map<int, ExactLayers> layers_;               ///< by samples a pixel
+  std::map<int, SkyShadow> skies_;                  ///< by samples a pixel
   std::map<int, VolumeLayers> volumes_;             ///< by samples a pixel
   std::vector<Image> pictures_;
   FrameFacts facts_;

@@ -12,7 +12,6 @@
 #include "renderer/volume/volume_picture.h"
 
 namespace gnomon::cpu {
-namespace {
 
 SampleGrid gridOf(const DepthBuffer& surfaces) {
   SampleGrid grid{surfaces.width, surfaces.height, {}};
@@ -26,6 +25,8 @@ ShownNumbers shownNumbers(const DepthBuffer& surfaces) {
   for (int y = 0; y < surfaces.height; ++y) shown.ofRow.push_back(static_cast<std::uint32_t>(surfaces.at(0, y)));
   return shown;
 }
+
+namespace {
 
 /// Marks the places that it is asked about, and lets no triangle hide anything.
 class Coverage : public Holes {

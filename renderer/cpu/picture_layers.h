@@ -9,6 +9,7 @@
 #include "renderer/cpu/raster/depth_buffer.h"
 #include "renderer/cpu/shadow/shadow_maps.h"
 #include "renderer/device/device.h"
+#include "renderer/techniques/picture_points.h"
 #include "renderer/volume/volume_light.h"
 
 namespace gnomon::cpu {
@@ -26,6 +27,10 @@ struct ExactLayers {
   std::size_t bytes() const; ///< of what was found for this picture
   std::vector<Layer> layers(const DepthBuffer& surfaces) const;
 };
+
+/// The samples of a picture's surfaces, and what they show, which are numbered.
+SampleGrid gridOf(const DepthBuffer& surfaces);
+ShownNumbers shownNumbers(const DepthBuffer& surfaces);
 
 /// `surfaces`: numbered, and left as they are. What is baked is used in place; rays decide the rest.
 Result<ExactLayers> exactLayers(const CameraRaster& camera, const FrameWork& work, const Survey& survey,

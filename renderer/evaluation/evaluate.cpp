@@ -6,7 +6,7 @@
 #include "renderer/core/collect.h"
 #include "renderer/evaluation/evaluation_measures.h"
 #include "renderer/evaluation/world_points.h"
-#include "renderer/scene/animation/posed_scene.h"
+#include "renderer/resolve/resolve_ground.h"
 
 namespace gnomon {
 
@@ -140,7 +140,7 @@ class Run {
 Result<EvaluationReport> evaluate(const ScenePtr& scene, const Evaluation& evaluation, const RendererInfo& renderer,
                                   const EvaluationTools& tools, const EvaluationListener& listener) {
   ProblemList problems;
-  const ScenePtr posed = collect(posedScene(scene, poseOf(evaluation.spec)), problems).value_or(scene);
+  const ScenePtr posed = collect(stagedScene(scene, evaluation.spec), problems).value_or(scene);
   resolveFrame(*posed, evaluation.spec, problems);
   if (!problems.empty()) return placedAt("/spec", std::move(problems).take());
   return Run(scene, evaluation, renderer, tools, listener).run(renderer);

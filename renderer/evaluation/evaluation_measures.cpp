@@ -9,7 +9,7 @@
 #include "renderer/reference/error_measures.h"
 #include "renderer/resolve/check_frame.h"
 #include "renderer/resolve/plan_input.h"
-#include "renderer/scene/animation/posed_scene.h"
+#include "renderer/resolve/resolve_ground.h"
 
 namespace gnomon {
 
@@ -118,7 +118,7 @@ std::vector<std::vector<std::size_t>> shareReferences(const std::vector<Subject>
 }
 
 Result<const TracedScene*> Truth::traced(const ResolvedFrame& frame) {
-  auto posed = posedScene(scene_, poseOf(frame.spec));
+  auto posed = stagedScene(scene_, frame.spec);
   if (!posed) return posed.problems();
   if (traced_ && &traced_->scene() == posed->get() && tracedIndex_ == frame.scene) return &*traced_;
   const auto begin = std::chrono::steady_clock::now();

@@ -8,7 +8,7 @@
 #include "protocol/spec/traits.h"
 #include "renderer/resolve/plan_input.h"
 #include "renderer/resolve/resolve_frame.h"
-#include "renderer/scene/animation/posed_scene.h"
+#include "renderer/resolve/resolve_ground.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {
@@ -138,7 +138,7 @@ FrameSpec withChoice(const FrameSpec& spec, const QualityReport& report) {
 }
 
 Result<std::string> viewClass(const Scene& loaded, const FrameSpec& spec) {
-  const auto posed = posedScene(loaded, poseOf(spec));
+  const auto posed = stagedScene(std::shared_ptr<const Scene>(std::shared_ptr<const Scene>(), &loaded), spec);
   if (!posed) return posed.problems();
   const Scene& scene = **posed;
   FrameSpec settled = spec;

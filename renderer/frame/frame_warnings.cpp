@@ -51,18 +51,18 @@ std::optional<Frustum> cutRegion(const CameraView& camera) {
   return region;
 }
 
-/// The visible instances of a scene, and those of them whose boxes reach into the picture.
+/// The visible instances of a scene, without a ground, and those of them whose boxes reach into the picture.
 struct InstancesInView {
   std::size_t visible = 0;
   std::vector<std::uint32_t> instances; ///< indices into SceneView::instances
 };
 
-InstancesInView instancesInView(const SceneView& view, const ResolvedFrame& frame) {
+InstancesInView instancesInView(const Scene& scene, const SceneView& view, const ResolvedFrame& frame) {
   const Frustum frustum = frustumOf(frame.view);
   InstancesInView in;
   for (std::size_t i = 0; i < view.instances.size(); ++i) {
     const Instance& instance = view.instances[i];
-    if (!switchesOf(frame.nodes, instance.node).visible) continue;
+    if (isGround(scene, instance) || !switchesOf(frame.nodes, instance.node).visible) continue;
     ++in.visible;
     if (mayIntersect(frustum, fromEye(instance.bounds, frame.view.eye))) {
       in.instances.push_back(static_cast<std::uint32_t>(i));
@@ -174,7 +174,7 @@ std::vector<std::string> frameWarnings(const WarnedFrame& warned, WarnedBy by,
   const auto add = [&](std::optional<std::string> warning) {
     if (warning) warnings.push_back(*std::move(warning));
   };
-  const auto inView = instancesInView(warned.view, warned.frame);
+  const auto inView = instancesInView(warned.scene, warned.view, warned.frame);
   add(warningOfNothingInView(warned.frame, inView));
   add(warningOfNearPlane(warned.scene, warned.view, warned.frame));
   if (by == WarnedBy::drawing) {

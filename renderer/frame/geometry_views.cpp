@@ -22,10 +22,12 @@ const Instance& instanceOf(const ShownGeometry& shown, const PlacedTriangle& tri
   return shown.view.instances[triangle.instance];
 }
 
-/// -1 = a surface that has none in the file: it shows the last, which loading adds.
+/// -1 = a surface that has none in the file: it shows the last of the file, which loading adds. A ground has the number
+/// after the file's own.
 int materialIdOf(const ShownGeometry& shown, const PlacedTriangle& triangle) {
+  const int added = static_cast<int>(fileMaterials(shown.scene)) - 1;
   const int material = materialOf(shown.scene, instanceOf(shown, triangle));
-  return material + 1 == static_cast<int>(shown.scene.materials.size()) ? -1 : material;
+  return material == added ? -1 : material > added ? added : material;
 }
 
 int idOf(const ShownGeometry& shown, View view, const PlacedTriangle& triangle) {

@@ -67,9 +67,10 @@ std::optional<glm::dvec2> placeBefore(const CameraView& camera, const glm::dvec3
 } // namespace
 
 Result<EarlierMoment> earlierMoment(const std::shared_ptr<const Scene>& loaded, const FrameSpec& asked,
-                                    const Camera& now, const SceneView& view) {
+                                    const Camera& now, const SceneView& view,
+                                    const std::optional<GroundPlane>& ground) {
   const MotionFrom& from = *asked.motionFrom;
-  const Pose pose{from.animation ? from.animation : asked.animation, from.nodes ? *from.nodes : asked.nodes};
+  const Pose pose{from.animation ? from.animation : asked.animation, from.nodes ? *from.nodes : asked.nodes, ground};
   ProblemList problems;
   const auto scene = collect(posedScene(loaded, pose), problems).value_or(loaded);
   const ResolvedFrame frame = resolveFrame(*scene, frameThen(asked, now), problems);

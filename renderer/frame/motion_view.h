@@ -21,10 +21,11 @@ struct EarlierMoment {
 };
 
 /// The frame's scene and camera with what `motionFrom` says instead. `now`: the frame's camera with nothing left open;
-/// `view`: what the frame shows. Problems point into /motionFrom where that gives what is wrong. REQUIRES: the spec, as
+/// `view`: what the frame shows; `ground`: the frame's, which does not move. Problems point into /motionFrom where that gives what is wrong. REQUIRES: the spec, as
 /// it was asked, has motionFrom.
 Result<EarlierMoment> earlierMoment(const std::shared_ptr<const Scene>& loaded, const FrameSpec& asked,
-                                    const Camera& now, const SceneView& view);
+                                    const Camera& now, const SceneView& view,
+                                    const std::optional<GroundPlane>& ground = std::nullopt);
 
 /// By how much the point of a triangle that a place on the picture (pixels, from the upper left corner) shows has moved
 /// in the picture: pixels, x to the right, y down. Infinite where there is no triangle, where it was not there, or

@@ -5,6 +5,7 @@
 
 #include "renderer/core/stop.h"
 #include "renderer/frame/baked_scene.h"
+#include "renderer/frame/environment_of_frame.h"
 #include "renderer/frame/frame_views.h"
 #include "renderer/frame/frame_warnings.h"
 #include "renderer/frame/geometry_views.h"
@@ -35,8 +36,9 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   const auto bakedLight = [&](int light) { return baked[static_cast<std::size_t>(light)].baked; };
 
   MadeVolumes made;
+  FrameEnvironment environment;
   const auto begun = device.begin({scene, resolved, layered, needsEdges(resolved), tracedScene, bakedLight,
-                                   &made.volumes, nullptr, receiverParts(resolved)});
+                                   &made.volumes, &environment, receiverParts(resolved)});
   if (!begun) return begun.problems();
   FrameDrawing& drawing = **begun;
 
@@ -45,7 +47,12 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   baked = *std::move(found);
   if (!baked.empty()) drawing.endStage("bake");
 
-  auto volumes = volumesOf(caches.volumes, caches.traced, *settled);
+  auto around = environmentOf(caches.environments, *settled);
+  if (!around) return around.problems();
+  environment = *std::move(around);
+  if (environment.environment) drawing.endStage("environment");
+
+  auto volumes = volumesOf(caches.volumes, caches.traced, *settled, environment);
   if (!volumes) return volumes.problems();
   made = *std::move(volumes);
   if (!made.volumes.empty()) drawing.endStage("volume");

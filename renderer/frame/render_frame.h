@@ -2,6 +2,7 @@
 
 #include "renderer/core/stop.h"
 #include "renderer/device/device.h"
+#include "renderer/frame/environment_cache.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/light_map_cache.h"
 #include "renderer/frame/traced_scene_cache.h"
@@ -14,6 +15,7 @@ struct FrameCaches {
   TracedSceneCache traced;
   LightMapCache lightMaps;
   VolumeCache volumes;
+  EnvironmentCache environments{};
 };
 
 /// A frame from top to bottom, on any device: settled, surveyed, planned, cast, shown, compared with rays where a

@@ -10,6 +10,7 @@
 #include "renderer/frame/volume_cache.h"
 #include "renderer/resolve/check_frame.h"
 #include "renderer/resolve/plan_input.h"
+#include "renderer/resolve/resolve_ground.h"
 #include "renderer/scene/animation/posed_scene.h"
 
 namespace gnomon {
@@ -47,6 +48,11 @@ std::string nameOf(const Scene& scene, int node) {
 Status checkBaked(const ScenePtr& loaded, const ScenePtr& posed, const FrameSpec& asked, const ResolvedFrame& frame) {
   const std::vector<int> lights = lightsToBake(frame);
   if (lights.empty()) return Done{};
+  if (posed->ground) {
+    return Problem{ProblemCode::unsupportedFeature, "/ground",
+                   "Light maps hold no shadows of a ground, which is no part of the file.",
+                   "another technique, or no ground", "lightMap"};
+  }
   const auto still = posedScene(loaded, {.nodes = asked.nodes});
   if (!still) return still.problems();
   const int node = movedNode(**still, *posed, frame.scene);
@@ -125,11 +131,18 @@ Status checkVolumes(const Scene& loaded, const ResolvedFrame& frame) {
   return std::move(problems).take();
 }
 
+/// A problem where the upload does not have the file of the frame's environment.
+Status checkEnvironment(const Scene& loaded, const FrameSpec& spec) {
+  const std::optional<std::string>& file = spec.environment.file;
+  if (!file || loaded.environmentFiles.contains(*file)) return Done{};
+  return invalidValue("/environment/file", "The upload has no .hdr or .exr file of that name.", "", *file);
+}
+
 } // namespace
 
 Result<SettledFrame> settleFrame(const ScenePtr& loaded, const FrameSpec& spec, const RendererInfo* device) {
   ProblemList problems;
-  const auto posed = collect(posedScene(loaded, poseOf(spec)), problems);
+  const auto posed = collect(stagedScene(loaded, spec), problems);
   SettledFrame settled{loaded, posed.value_or(loaded), {}, {}, {}};
   ResolvedFrame& frame = settled.frame;
   frame = resolveFrame(*settled.scene, spec, problems);
@@ -145,10 +158,11 @@ Result<SettledFrame> settleFrame(const ScenePtr& loaded, const FrameSpec& spec, 
   if (showsAny(spec, [](View view) { return view == View::motion; })) {
     const SceneView none;
     const SceneView& view = frame.scene < 0 ? none : settled.view();
-    settled.earlier = collect(earlierMoment(loaded, spec, frame.spec.camera, view), problems);
+    settled.earlier = collect(earlierMoment(loaded, spec, frame.spec.camera, view, settled.scene->ground), problems);
   }
   if (posed && frame.scene >= 0) collect(checkBaked(loaded, *posed, spec, frame), problems);
   collect(checkVolumes(*loaded, frame), problems);
+  collect(checkEnvironment(*loaded, frame.spec), problems);
   collect(checkLayers(frame, settled.layered), problems);
   if (!problems.empty()) return std::move(problems).take();
   if (settled.earlier) frame.spec.motionFrom->camera = settled.earlier->settledCamera;

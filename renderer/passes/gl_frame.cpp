@@ -52,6 +52,10 @@ std::vector<PassReport> passReports(const PassResults& results) {
   for (const auto& [samples, layers] : results.drawn.volumes) {
     passes.push_back(passReport("volumes", layers.timer, 0, 0));
   }
+  for (const auto& [samples, sky] : results.drawn.skies) {
+    passes.push_back(passReport("sky", sky.timer, 0, 0));
+    passes.back().rays = sky.rays;
+  }
   for (const auto& [samples, exact] : results.drawn.exactShadows) {
     passes.push_back(passReport("visibility", exact.timer, exact.drawCalls, exact.triangles));
   }
@@ -73,6 +77,7 @@ MemoryReport memoryOf(const PassResults& results) {
   for (const auto& [samples, exact] : results.drawn.exactShadows) {
     memory.targets += exact.layers.texture.bytes() + exact.countBytes;
   }
+  for (const auto& [samples, sky] : results.drawn.skies) memory.targets += sky.texture.bytes();
   for (const auto& [samples, layers] : results.drawn.volumes) memory.targets += layers.picture.bytes();
   memory.targets += results.drawn.casters.bytes() + results.drawn.flatAtlas.bytes();
   for (const DrawnView& view : results.drawn.views) memory.targets += view.color.bytes();
@@ -133,6 +138,11 @@ GlFrame::GlFrame(GlShared& shared, const FrameWork& work)
 }
 
 Result<SeenDepths> GlFrame::survey() {
+  if (work_.environment != nullptr && work_.environment->environment) {
+    inputs_.environment = &shared_.environments.get(work_.environment->environment);
+    setEnvironment(*work_.environment, data_);
+    frame_.update(0, gl::bytesOfValue(data_));
+  }
   auto survey = surveyScene(inputs_, samplesOf(work_.frame.spec.antialiasing), work_.parts);
   if (!survey) return survey.problems();
   survey_ = std::move(*survey);

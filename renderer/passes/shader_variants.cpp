@@ -121,7 +121,11 @@ gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant&
   if (masked) defines.emplace_back("ALPHA_MASK");
   if (material.specularGlossiness) defines.emplace_back("SPECULAR_GLOSSINESS");
   if (material.unlit) defines.emplace_back("UNLIT");
-  if (material.transmission > 0) defines.emplace_back("TRANSMISSION");
+  if (material.catchesShadows) defines.emplace_back("CATCHER");
+  if (material.transmission > 0) {
+    defines.emplace_back("TRANSMISSION");
+    if (variant.environment) defines.emplace_back("ENVIRONMENT");
+  }
   if (variant.emission) defines.emplace_back("EMISSION");
   if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
   int location = variant.emission ? 2 : 1;
@@ -153,10 +157,14 @@ gl::ProgramSource viewProgram(const ViewVariant& variant) {
     defines.push_back("FIRST_BAKED " + std::to_string(variant.firstBaked) + "u");
   }
   if (variant.shadowColor) defines.emplace_back("SHADOW_COLOR");
+  if (variant.skyShadow) defines.emplace_back("SKY_SHADOW");
   if (variant.volumes) defines.emplace_back("VOLUMES");
   if (variant.volumeLight >= 0) defines.push_back("VOLUME_LIGHT " + std::to_string(variant.volumeLight));
+  if (variant.environment) defines.emplace_back("ENVIRONMENT");
+  if (variant.shownSurroundings) defines.emplace_back("SHOWN_SURROUNDINGS");
   if (variant.emission) defines.emplace_back("EMISSION");
   if (variant.unlit) defines.emplace_back("UNLIT");
+  if (variant.catcher) defines.emplace_back("CATCHER");
   if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
   if (traitsOf(variant.view).oneLight) defines.emplace_back("DEBUG_LIGHT");
   if (variant.encoded) defines.emplace_back("ENCODED");

@@ -23,14 +23,15 @@ gl::ProgramSource castProgram(const Material* masked, BlendedCasters blended);
 gl::ProgramSource casterNodeProgram(const Material* masked, BlendedCasters blended);
 
 struct SurfaceVariant {
-  bool tangents = false; ///< the primitive brings its own
-  bool emission =
-      false; ///< something in the scene glows, lets light through or is unlit: every program writes what it gives off
+  bool tangents = false;       ///< the primitive brings its own
+  bool emission = false;       ///< something in the scene glows, lets light through, is unlit or catches shadows: every
+                               ///< program writes what it gives off
   bool receiverGroups = false; ///< some light tells receiver groups apart
   bool numbered = false;       ///< says which triangle shows (prepare/draw_list.h)
   bool smoothPlaces = false;   ///< says where the surface lies that shading shows (shaders/shared/smooth_surface.h)
   int bakedLights = 0;         ///< whose light maps are read, 0 to GNOMON_LIGHT_MAPS
   int shownSamples = 0;        ///< of a pixel, where depth says which of them show a triangle; else 0
+  bool environment = false;    ///< the scene stands in one, not in the studio
 };
 
 /// Draws a material's surface.
@@ -53,19 +54,23 @@ struct ViewVariant {
   int samples = 1;             ///< a pixel
   bool emission = false;       ///< as in SurfaceVariant
   bool unlit = false;          ///< some material is; `emission` is set then
+  bool catcher = false;        ///< some material catches shadows, and the view shows it so; `emission` is set then
   bool receiverGroups = false; ///< as in SurfaceVariant
   int lights = 0;
   bool lightLists = false; ///< each square of the picture lists its own
   int tiles = 0;           ///< of the light that has most
   bool punctual = false;   ///< some light is a spot or a point
   ShadowSampling shadows{};
-  bool smoothPlaces = false;     ///< as in SurfaceVariant: some light asks for them
-  bool visibilityLayers = false; ///< rays or shadow volumes serve some light, or there is volumeLight
-  int bakedLights = 0;           ///< as in SurfaceVariant
-  int firstBaked = 0;            ///< the visibility layer of the first of them
-  bool shadowColor = false;      ///< some light's shadow is not black
-  bool volumes = false;          ///< clouds and the like are seen
-  int volumeLight = -1;          ///< the light that they shade surfaces from: a layer of its own, the last; -1 = none
+  bool smoothPlaces = false;      ///< as in SurfaceVariant: some light asks for them
+  bool visibilityLayers = false;  ///< rays or shadow volumes serve some light, or there is volumeLight
+  int bakedLights = 0;            ///< as in SurfaceVariant
+  int firstBaked = 0;             ///< the visibility layer of the first of them
+  bool shadowColor = false;       ///< some light's shadow is not black
+  bool skyShadow = false;         ///< the scene hides some of the environment
+  bool volumes = false;           ///< clouds and the like are seen
+  int volumeLight = -1;           ///< the light that they shade surfaces from: a layer of its own, the last; -1 = none
+  bool environment = false;       ///< as in SurfaceVariant
+  bool shownSurroundings = false; ///< they are the background
 };
 
 /// Makes a view from the surfaces.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "renderer/rays/drawn_query.h"
 #include "renderer/rays/trace_packet.h"
 #include "renderer/rays/traced_light.h"
 
@@ -8,17 +9,6 @@ namespace gnomon {
 namespace {
 
 static_assert(DrawnPlaces::kCount == kLanes);
-
-/// Embree's context, and what its filter needs of the points.
-struct DrawnQuery {
-  RTCIntersectContext context;
-  const Casters* casters = nullptr;
-  const LightSource* source = nullptr;
-  const TraceInput* input = nullptr;
-  const DrawnPlaces* places = nullptr;
-  const DrawnPoints* points = nullptr;
-  std::array<float, kLanes> through{}; ///< of the light, past the casters met so far that let some of it through
-};
 
 SurfacePoint exactly(const DrawnQuery& query, unsigned lane) {
   const DrawnPlaces& places = *query.places;
@@ -70,7 +60,8 @@ void keepOpaque(const RTCFilterFunctionNArguments* call) {
   });
 }
 
-/// The share of the light that comes through, for each lane that is active.
+} // namespace
+
 std::array<float, kLanes> sharesThrough(DrawnQuery& query, const Lanes& lanes) {
   rtcInitIntersectContext(&query.context);
   query.context.flags = query.casters->closeRays();
@@ -91,6 +82,8 @@ std::array<float, kLanes> sharesThrough(DrawnQuery& query, const Lanes& lanes) {
   for (unsigned i = 0; i < kLanes; ++i) shares[i] = rays.tfar[i] < 0 ? 0.0f : query.through[i];
   return shares;
 }
+
+namespace {
 
 SquarePlaces shiftsOf(const DrawnPlaces& places, const Interleaved& all, bool aligned) {
   SquarePlaces shifts;

@@ -90,7 +90,7 @@ void placeVertices(Tree& tree) {
 }
 
 Problem outOfMemory() {
-  return {ProblemCode::unavailable, "", "Memory ran out while the scene was prepared for ray tracing."};
+  return noMemory("", "There is not enough memory to prepare the scene for ray tracing.");
 }
 
 } // namespace

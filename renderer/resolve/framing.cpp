@@ -135,7 +135,7 @@ Farthest farthestOf(const Aabb& box) {
 
 SeenExtent::SeenExtent(const Scene& scene, const SceneView& view, std::span<const NodeSwitches> nodes) : scene_(scene) {
   for (const Instance& instance : view.instances) {
-    if (!switchesOf(nodes, instance.node).visible) continue;
+    if (isGround(scene, instance) || !switchesOf(nodes, instance.node).visible) continue;
     instances_.push_back(&instance);
     bounds_.add(instance.bounds);
   }

@@ -21,8 +21,8 @@ using Farthest = std::function<glm::dvec3(const glm::dvec3& direction)>;
 /// Of a box, which is not empty.
 Farthest farthestOf(const Aabb& box);
 
-/// Of the vertices of triangles that a camera may see: those of a scene's view whose nodes are visible. Everything
-/// given outlives it; one thread at a time.
+/// Of the vertices of triangles that a camera may see: those of a scene's view whose nodes are visible, without a
+/// ground. Everything given outlives it; one thread at a time.
 class SeenExtent {
  public:
   /// `nodes`: as resolveNodes gives them. `scene` is posed.

@@ -1,10 +1,12 @@
 #include "renderer/resolve/resolve_frame.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "protocol/base/text.h"
 #include "protocol/spec/frame_lights.h"
+#include "protocol/spec/settled_sun.h"
 #include "renderer/core/collect.h"
 #include "renderer/resolve/check_frame.h"
 #include "renderer/resolve/framing.h"
@@ -15,10 +17,15 @@
 namespace gnomon {
 namespace {
 
-std::vector<Light> lightsOf(const SceneView& scene) {
-  std::vector<Light> lights;
-  for (const SceneLight& light : scene.lights) lights.push_back(light.light);
-  return lights;
+/// Of the suns by place and time that have set.
+void appendNightWarnings(const FrameSpec& asked, std::vector<std::string>& warnings) {
+  for (std::size_t i = 0; asked.lights && i < asked.lights->size(); ++i) {
+    const auto& sun = (*asked.lights)[i].sun;
+    if (!sun || !isNight(*sun)) continue;
+    warnings.push_back("Light " + std::to_string(i) + " gives no light: at its place and time the sun is " +
+                       std::to_string(std::llround(-*settledSun(*sun).elevationDegrees)) +
+                       " degrees below the horizon.");
+  }
 }
 
 std::string namesOf(const std::vector<std::string>& variants) {
@@ -34,20 +41,6 @@ Result<int> resolveVariant(const std::string& name, const Scene& scene) {
                  namesOf(scene.variants), name};
 }
 
-/// Index into Scene::scenes; -1 where the file does not have that scene.
-int resolveScene(const FrameSpec& spec, const Scene& scene, ProblemList& problems) {
-  const int index = spec.scene.value_or(scene.defaultScene);
-  const int count = fileScenes(scene);
-  const bool isThere = index >= 0 && index < count;
-  if (!isThere) {
-    problems.add({ProblemCode::invalidValue, "/scene", "The file has no scene of that index.",
-                  "0.." + std::to_string(count - 1), std::to_string(index)});
-  }
-  if (!spec.materialVariant) return isThere ? index : -1;
-  const auto variant = collect(resolveVariant(*spec.materialVariant, scene), problems);
-  return isThere ? indexOf(scene, {index, variant}) : -1;
-}
-
 /// Why the scene does not have the camera that is asked for, where its file has one.
 Problems whyWithout(Problems problems, const Camera& camera, const Scene& scene) {
   for (const LeftOutCamera& each : scene.leftOutCameras) {
@@ -60,6 +53,25 @@ Problems whyWithout(Problems problems, const Camera& camera, const Scene& scene)
 }
 
 } // namespace
+
+std::vector<Light> lightsOf(const SceneView& scene) {
+  std::vector<Light> lights;
+  for (const SceneLight& light : scene.lights) lights.push_back(light.light);
+  return lights;
+}
+
+int resolveScene(const FrameSpec& spec, const Scene& scene, ProblemList& problems) {
+  const int index = spec.scene.value_or(scene.defaultScene);
+  const int count = fileScenes(scene);
+  const bool isThere = index >= 0 && index < count;
+  if (!isThere) {
+    problems.add({ProblemCode::invalidValue, "/scene", "The file has no scene of that index.",
+                  "0.." + std::to_string(count - 1), std::to_string(index)});
+  }
+  if (!spec.materialVariant) return isThere ? index : -1;
+  const auto variant = collect(resolveVariant(*spec.materialVariant, scene), problems);
+  return isThere ? indexOf(scene, {index, variant}) : -1;
+}
 
 ResolvedFrame resolveFrame(const Scene& scene, const FrameSpec& spec, ProblemList& problems) {
   if (spec.quality) {
@@ -76,8 +88,14 @@ ResolvedFrame resolveFrame(const Scene& scene, const FrameSpec& spec, ProblemLis
     frame.warnings.push_back("The scene has " + std::to_string(view.lights.size()) + " lights; only the first " +
                              std::to_string(frame.spec.lights->size()) + " light this frame.");
   }
+  appendNightWarnings(spec, frame.warnings);
+  if (frame.spec.environment.sky) frame.spec.environment.sky->sun = settledSun(frame.spec.environment.sky->sun);
   if (frame.scene < 0) return frame;
   frame.spec.scene = spec.scene.value_or(scene.defaultScene);
+  if (scene.ground && frame.spec.ground) {
+    frame.spec.ground->height = scene.ground->center.y;
+    frame.spec.ground->size = scene.ground->size;
+  }
 
   SeenExtent seen(scene, view, frame.nodes);
   // What is hidden altogether is framed as if it were there.

@@ -29,6 +29,12 @@ struct ResolvedFrame {
   std::vector<std::optional<TechniqueChoice>> choices{};
 };
 
+/// The lights of the file, without a frame's shadow.
+std::vector<Light> lightsOf(const SceneView& scene);
+
+/// Index into Scene::scenes; -1 where the file does not have that scene or that variant, which is a problem.
+int resolveScene(const FrameSpec& spec, const Scene& scene, ProblemList& problems);
+
 /// Fills in what depends on the scene. The spec has passed protocol/validate. All that the scene refuses is added to
 /// `problems`; where that is anything, the frame says only what its lights are, and `scene` is -1 if it is the index
 /// that the file does not have.

@@ -119,11 +119,12 @@ VolumePlace placeAt(std::size_t node, const Scene& scene, std::span<const NodeSw
 
 Result<std::vector<NodeSwitches>> resolveNodes(std::span<const NodeOptions> entries, const Scene& scene) {
   std::vector<NodeSwitches> nodes;
-  if (entries.empty()) return nodes;
+  if (entries.empty() && !scene.ground) return nodes;
   auto own = ownSwitches(entries, scene);
   if (!own) return own.problems();
   inherit(scene, *own);
   std::transform(own->begin(), own->end(), std::back_inserter(nodes), settled);
+  if (scene.ground) nodes.back().castShadow = false;
   return nodes;
 }
 

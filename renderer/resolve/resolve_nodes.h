@@ -13,8 +13,8 @@
 namespace gnomon {
 
 /// The switches of every node of the file, by its index: of each switch the nearest entry up the tree counts, and of
-/// two entries for one node the later. Empty where there are no entries: every node has the defaults. An entry that
-/// finds no node is a problem at /nodes/i/node.
+/// two entries for one node the later. Empty where there are no entries and no ground, which casts nothing: every node
+/// has the defaults. An entry that finds no node is a problem at /nodes/i/node.
 Result<std::vector<NodeSwitches>> resolveNodes(std::span<const NodeOptions> entries, const Scene& scene);
 
 /// The layers that some instance of a scene casts or receives in. `view`: one of the scene's; `nodes`: as resolveNodes

@@ -9,29 +9,29 @@ namespace gnomon {
 
 std::string nodeNames(const Scene& scene) {
   std::vector<std::string_view> names;
-  for (const SceneNode& node : scene.nodes) {
-    if (!node.name.empty()) names.push_back(node.name);
+  for (std::size_t i = 0; i < fileNodes(scene); ++i) {
+    if (!scene.nodes[i].name.empty()) names.push_back(scene.nodes[i].name);
   }
   return names.empty() ? "no node has a name" : oneOf(names);
 }
 
 Problem noNodeOfIndex(int index, const Scene& scene, std::string pointer) {
   return {ProblemCode::invalidValue, std::move(pointer), "The file has no node of that index.",
-          scene.nodes.empty() ? "the file has no nodes" : "0.." + std::to_string(scene.nodes.size() - 1),
+          fileNodes(scene) == 0 ? "the file has no nodes" : "0.." + std::to_string(fileNodes(scene) - 1),
           std::to_string(index)};
 }
 
 Result<std::vector<std::size_t>> NodeFinder::find(const std::variant<int, std::string>& node,
                                                   const std::string& pointer) {
   if (const int* index = std::get_if<int>(&node)) {
-    if (*index < 0 || static_cast<std::size_t>(*index) >= scene_.nodes.size()) {
+    if (*index < 0 || static_cast<std::size_t>(*index) >= fileNodes(scene_)) {
       return noNodeOfIndex(*index, scene_, pointer);
     }
     return std::vector{static_cast<std::size_t>(*index)};
   }
   if (!byName_) {
     byName_.emplace();
-    for (std::size_t i = 0; i < scene_.nodes.size(); ++i) byName_->emplace(scene_.nodes[i].name, i);
+    for (std::size_t i = 0; i < fileNodes(scene_); ++i) byName_->emplace(scene_.nodes[i].name, i);
   }
   const std::string& name = std::get<std::string>(node);
   const auto [first, last] = byName_->equal_range(name);

@@ -7,6 +7,7 @@
 
 #include "protocol/base/bytes.h"
 #include "renderer/core/grid_file_kind.h"
+#include "renderer/environment/read_environment.h"
 #include "renderer/scene/animation/motion.h"
 #include "renderer/scene/animation/posed_scene.h"
 #include "renderer/scene/decode/draco_primitives.h"
@@ -20,6 +21,7 @@
 #include "renderer/scene/graph/scene_views.h"
 #include "renderer/scene/materials/materials.h"
 #include "renderer/scene/posing/deformation.h"
+#include "renderer/scene/ground.h"
 #include "renderer/scene/posing/pose.h"
 #include "renderer/scene/summary.h"
 
@@ -31,13 +33,14 @@ bool isEmpty(const BuiltMesh& mesh) {
   return mesh.primitives.empty() && mesh.deformables.empty();
 }
 
-/// Volumes are named by frames, and not by the model: kept as they are, by their first bytes.
-std::map<std::string, std::shared_ptr<const Bytes>> gridFiles(const SceneBundle& bundle) {
-  std::map<std::string, std::shared_ptr<const Bytes>> grids;
+/// Volumes and environments are named by frames, and not by the model: kept as they are, by their first bytes.
+template <class Is>
+std::map<std::string, std::shared_ptr<const Bytes>> filesThat(const SceneBundle& bundle, const Is& are) {
+  std::map<std::string, std::shared_ptr<const Bytes>> files;
   for (const auto& [name, file] : bundle.files) {
-    if (gridFileKind(asText(file))) grids.emplace(name, std::make_shared<const Bytes>(file));
+    if (are(file)) files.emplace(name, std::make_shared<const Bytes>(file));
   }
-  return grids;
+  return files;
 }
 
 Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limits& limits, const std::string& id,
@@ -98,8 +101,10 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   if (findings.refused()) return findings.takeProblems();
 
   if (findings.violated()) return findings.takeProblems();
-  scene->grids = gridFiles(bundle);
+  scene->grids = filesThat(bundle, [](const Bytes& file) { return gridFileKind(asText(file)).has_value(); });
+  scene->environmentFiles = filesThat(bundle, [](const Bytes& file) { return isEnvironmentFile(file); });
   if (!scene->grids.empty()) scene->placedNodes = placedNodes(tree, tree.hidden);
+  addGroundMesh(*scene);
   scene->defaultScene = std::max(model.scene, 0);
   scene->summary = summarize(model, bundle, *scene);
   scene->summary.id = id;
@@ -115,7 +120,7 @@ Result<std::shared_ptr<const Scene>> loadGltf(const SceneBundle& bundle, const L
   try {
     return load(bundle, limits, id, known);
   } catch (const std::bad_alloc&) {
-    return Problem{ProblemCode::tooLarge, {}, "There is not enough memory for this scene."};
+    return noMemory({}, "There is not enough memory for this scene.");
   } catch (const std::exception&) {
     return Problem{ProblemCode::internal, {}, "The scene could not be loaded."};
   }

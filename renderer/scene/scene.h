@@ -122,7 +122,8 @@ struct Material {
   float transmission = 0;              ///< share of the light that the eye sees pass where it is not reflected
   bool doubleSided = false;
   bool hasVertexColors = false;
-  bool unlit = false;                                     ///< it shows its base color, whatever the light
+  bool unlit = false;          ///< it shows its base color, whatever the light
+  bool catchesShadows = false; ///< in view color it shows what is behind it, darkened by the shadows on it
   std::optional<SpecularGlossiness> specularGlossiness{}; ///< instead of metal and roughness
   /// metallicRoughness: with `specularGlossiness` its texture, sRGB specular and alpha glossiness.
   std::optional<TextureUse> baseColor, metallicRoughness, normal, occlusion, emissive;
@@ -213,6 +214,18 @@ inline glm::dvec3 anchorOf(const SceneView& view) {
   return view.bounds.empty() ? glm::dvec3(0.0) : view.bounds.center();
 }
 
+/// A frame's ground as a part of its scene: the last node and the last material, and the last instance of each view.
+/// Views' bounds don't count it.
+struct GroundPlane {
+  glm::dvec3 center{0};
+  double size = 0; ///< length of its sides, metres
+  bool catchesShadows = false;
+  glm::vec3 color{0}; ///< linear
+  float roughness = 1;
+
+  bool operator==(const GroundPlane&) const = default;
+};
+
 struct Deformation;
 struct Motion;
 class PoseCache;
@@ -228,7 +241,8 @@ struct Scene {
   std::vector<Material> materials;                           ///< at least one (the default material)
   SceneImages images;                                        ///< decoded when a frame needs them
   std::map<std::string, std::shared_ptr<const Bytes>> grids; ///< files of the bundle that hold volumes, by their names
-  std::vector<SceneNode> nodes;                              ///< as the file numbers them
+  std::map<std::string, std::shared_ptr<const Bytes>> environmentFiles; ///< those that are .hdr or .exr, by their names
+  std::vector<SceneNode> nodes;                                         ///< as the file numbers them
   std::vector<LeftOutCamera> leftOutCameras;
   std::vector<PlacedNode> placedNodes;            ///< parallel; empty where there are no grids
   std::shared_ptr<const Deformation> deformation; ///< of skins and morph targets; nullptr = nothing deforms
@@ -236,9 +250,22 @@ struct Scene {
   std::shared_ptr<PoseCache> poses;               ///< the last poses asked for; beside motion
   std::vector<SceneView> scenes;                  ///< the file's, and then all of them again for each variant
   std::vector<std::string> variants;              ///< names of the file's material variants
+  std::optional<Primitive> groundMesh;            ///< what a ground is made of: no primitive of the file
+  std::optional<GroundPlane> ground;              ///< nothing in a file
   int defaultScene = 0;
   SceneSummary summary; ///< its id is empty unless the scene is kept somewhere
 };
+
+/// Nodes and materials without those of a ground.
+inline std::size_t fileNodes(const Scene& scene) {
+  return scene.nodes.size() - (scene.ground ? 1 : 0);
+}
+inline std::size_t fileMaterials(const Scene& scene) {
+  return scene.materials.size() - (scene.ground ? 1 : 0);
+}
+inline bool isGround(const Scene& scene, const Instance& instance) {
+  return scene.ground && static_cast<std::size_t>(instance.node) == fileNodes(scene);
+}
 
 /// How many scenes the file has.
 inline int fileScenes(const Scene& scene) {

@@ -49,8 +49,8 @@ std::string SceneImage::damage() const {
   return "The image at " + pointer_ + " is damaged (" + wrong_ + "); what could be read of it is drawn.";
 }
 
-Problem SceneImage::noMemory() const {
-  return {ProblemCode::tooLarge, pointer_, "There is not enough memory for this image."};
+Problem SceneImage::withoutMemory() const {
+  return noMemory(pointer_, "There is not enough memory for this image.");
 }
 
 Status SceneImage::decode() const {
@@ -58,7 +58,7 @@ Status SceneImage::decode() const {
     decoded();
     return Done{};
   } catch (const std::bad_alloc&) {
-    return noMemory();
+    return withoutMemory();
   }
 }
 
@@ -84,7 +84,7 @@ Status SceneImage::readRows(int atOnce, const TakeRows& take) const {
     take(0, std::get<std::vector<std::uint8_t>>(decoded()->pixels));
     return Done{};
   } catch (const std::bad_alloc&) {
-    return noMemory();
+    return withoutMemory();
   }
 }
 

@@ -88,7 +88,7 @@ class SceneImage {
  private:
   const std::shared_ptr<const Image>& decoded() const;
   void note(const std::string& wrong) const;
-  Problem noMemory() const;
+  Problem withoutMemory() const;
 
   ImageSize size_;
   std::uint64_t bytes_ = 0;

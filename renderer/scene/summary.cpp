@@ -175,6 +175,7 @@ SceneSummary summarize(const gltf::Model& model, const SceneBundle& bundle, cons
   }
   summary.materialVariants = scene.variants;
   for (const auto& [name, file] : scene.grids) summary.volumeFiles.push_back(name);
+  for (const auto& [name, file] : scene.environmentFiles) summary.environmentFiles.push_back(name);
   summary.extensionsUsed = model.extensionsUsed;
   summary.extensionsIgnored = unsupportedOf(model.extensionsUsed);
   return summary;

@@ -21,7 +21,7 @@ struct Receiver {
 #ifdef RECEIVER_GROUPS
   uint groupBit;
 #endif
-#if defined(VISIBILITY_LAYERS) || defined(BAKED_LIGHTS)
+#if defined(VISIBILITY_LAYERS) || defined(BAKED_LIGHTS) || defined(SKY_SHADOW)
   uint samples; // of the pixel that show it, a bit each
 #endif
 };

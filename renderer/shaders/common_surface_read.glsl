@@ -46,7 +46,7 @@ Sample sampleOf(ivec2 pixel, int index) {
 
 Sample sampleAt(int index) { return sampleOf(ivec2(gl_FragCoord.xy), index); }
 
-// rgb: radiance; w: 1 = unlit.
+// rgb: radiance; w: 1 = unlit, 2 = catches shadows.
 vec4 emissionAt(int index) {
 #ifdef EMISSION
   return texelFetch(surfaceEmission, ivec2(gl_FragCoord.xy), index);

@@ -2,12 +2,14 @@
 #include "common_surface.glsl"
 #include "common_surface_read.glsl"
 #include "common_names.glsl"
-#include "shared/surroundings.h"
-#include "shared/brdf.h"
+#define ENVIRONMENT_UNIT GNOMON_ENVIRONMENT_UNIT
+#include "common_environment.glsl"
 #include "common_shadow.glsl"
 #include "shared/light.h"
 #include "common_light_lists.glsl"
+#include "common_sky_share.glsl"
 #include "shared/picture.h"
+#include "shared/shadow_catcher.h"
 #ifdef DEBUG_LIGHT
 #include "common_debug.glsl"
 #endif
@@ -37,12 +39,29 @@ bool isUnlit(vec4 emission) {
 #endif
 }
 
-vec3 radianceToEye(SurfacePoint s, Receiver receiver, vec4 emission, float occlusion) {
+// What a surface shows of the surroundings. `arriving`: what the scene leaves of their light, as environmentReflected
+// has it.
+vec3 reflectedSurroundings(Surface surface, SurfacePoint s, vec4 arriving) {
+#ifdef ENVIRONMENT
+  vec3 reflected = environmentReflected(environmentTexels, frame.environmentTurn, s, surface.baseColor, surface.metallic,
+                                        surface.roughness, surface.face, arriving);
+  return frame.environmentIntensity * reflected;
+#else
+  return frame.ambient * ambientReflected(s);
+#endif
+}
+
+vec3 radianceToEye(Surface surface, SurfacePoint s, Receiver receiver, vec4 emission) {
 #ifdef VIEW_LIGHT_CONTRIBUTION
   return isUnlit(emission) || debugLight < 0 ? vec3(0.0) : radianceFrom(debugLight, s, receiver);
 #else
   if (isUnlit(emission)) return emission.rgb;
-  vec3 sum = emission.rgb + frame.ambient * ambientReflected(s) * occlusion;
+#ifdef SKY_SHADOW
+  vec4 arriving = skyShare(receiver.samples);
+#else
+  vec4 arriving = vec4(1.0);
+#endif
+  vec3 sum = emission.rgb + reflectedSurroundings(surface, s, arriving) * surface.occlusion;
   uvec2 list = lightList();
   for (uint k = list.x; k < list.y; ++k) sum += radianceFrom(listedLight(k), s, receiver);
   return sum;
@@ -62,7 +81,7 @@ Receiver receiverOf(Sample seen, vec3 face, uint samples) {
 #ifdef RECEIVER_GROUPS
   receiver.groupBit = 1u << receiverGroup(seen.bits);
 #endif
-#if defined(VISIBILITY_LAYERS) || defined(BAKED_LIGHTS)
+#if defined(VISIBILITY_LAYERS) || defined(BAKED_LIGHTS) || defined(SKY_SHADOW)
   receiver.samples = samples;
 #endif
   return receiver;
@@ -86,19 +105,66 @@ vec4 shownColor(SeenLight seen) {
   return vec4(shownColor(seen, frame.exposureScale, TONE), seen.alpha);
 }
 
+#ifdef SHOWN_SURROUNDINGS
+// Where the line of sight through the pixel's centre goes. Unit length.
+vec3 sightAway() {
+  vec2 ndc = gl_FragCoord.xy * frame.pixelStep - 1.0;
+  vec3 across = frame.right * ndc.x + frame.up * ndc.y;
+  return normalize(frame.perspective != 0u ? frame.middle + across : frame.middle);
+}
+#endif
+
 SeenLight backgroundLight() {
 #ifdef VIEW_LIGHT_CONTRIBUTION
   return seenLight(vec3(0.0), vec3(0.0), frame.background.a);
+#elif defined(SHOWN_SURROUNDINGS)
+  return seenLight(radianceOfSurroundings(sightAway(), frame.shownRoughness), vec3(0.0), 1.0);
 #else
   return seenLight(vec3(0.0), frame.background.rgb, frame.background.a);
 #endif
 }
 
+#ifdef CATCHER
+bool isCatcher(vec4 emission) { return emission.w == 2.0; }
+
+CaughtLight caughtOf(int light, vec3 normal, Receiver receiver) {
+#ifdef RECEIVER_GROUPS
+  if ((lights[light].litGroups & receiver.groupBit) == 0u) return caughtLight(0.0, 0.0);
+#endif
+  vec3 toLight;
+  vec3 arriving = irradiance(lights[light], receiver.relative, toLight);
+  bool shines = dot(normal, toLight) > 0.0 && arriving != vec3(0.0);
+  vec3 left = vec3(shadowVisibility(light, receiver, toLight, shines));
+#ifdef SHADOW_COLOR
+  left = mix(lights[light].shadowColor, vec3(1.0), left);
+#endif
+  return caughtFrom(normal, toLight, arriving, left);
+}
+
+CaughtLight caughtHere(vec3 normal, Receiver receiver) {
+  vec3 open = vec3(1.0);
+#ifdef SKY_SHADOW
+  open = skyShare(receiver.samples).rgb;
+#endif
+  CaughtLight sum = caughtAround(irradianceOfSurroundings(normal), open);
+  uvec2 list = lightList();
+  for (uint k = list.x; k < list.y; ++k) {
+    CaughtLight one = caughtOf(listedLight(k), normal, receiver);
+    sum.all += one.all;
+    sum.lost += one.lost;
+  }
+  return sum;
+}
+#endif
+
 SeenLight surfaceLight(Surface surface, Sample seen, Receiver receiver) {
   vec3 toEye = frame.perspective != 0u ? -normalize(seen.relative) : -frame.forward;
   SurfacePoint s = surfacePoint(surface.baseColor, surface.metallic, surface.roughness, surface.normal, toEye);
   vec4 emission = emissionAt(seen.index);
-  vec3 radiance = radianceToEye(s, receiver, emission, surface.occlusion);
+#ifdef CATCHER
+  if (isCatcher(emission)) return seenThroughCatcher(backgroundLight(), caughtHere(surface.normal, receiver));
+#endif
+  vec3 radiance = radianceToEye(surface, s, receiver, emission);
   return isUnlit(emission) ? seenLight(vec3(0.0), radiance, 1.0) : seenLight(radiance, vec3(0.0), 1.0);
 }
 
@@ -117,6 +183,18 @@ vec4 picture(Sample seen, uint samples) {
 }
 
 #if SAMPLES > 1
+#ifdef CATCHER
+// Colors count as much as they cover.
+vec4 addend(vec4 shown) { return vec4(shown.rgb * shown.a, shown.a); }
+vec4 meanOf(vec4 sum) {
+  vec4 mean = sum / float(SAMPLES);
+  return mean.a > 0.0 ? vec4(mean.rgb / mean.a, mean.a) : shownColor(backgroundLight());
+}
+#else
+vec4 addend(vec4 shown) { return shown; }
+vec4 meanOf(vec4 sum) { return sum / float(SAMPLES); }
+#endif
+
 // The mean of the pixel's samples; those that show one surface are lit once. The loop turns once for each surface, so
 // that a pixel inside one costs no more than without antialiasing.
 vec4 antialiased() {
@@ -126,9 +204,9 @@ vec4 antialiased() {
     uint same;
     Sample seen = mergedSample(left, same);
     left &= ~same;
-    sum += float(bitCount(same)) * picture(seen, same);
+    sum += float(bitCount(same)) * addend(picture(seen, same));
   }
-  return sum / float(SAMPLES);
+  return meanOf(sum);
 }
 #else
 vec4 antialiased() { return picture(sampleAt(0), 1u); }

@@ -5,42 +5,42 @@
 #include <cmath>
 
 #include "protocol/spec/enum_rows.h"
+#include "protocol/spec/traits.h"
 
 namespace gnomon {
 namespace {
 
-/// What a filter type is, whatever its size.
-struct FilterTraits {
+/// How a filter reads the map.
+struct FilterReading {
   FilterType type;
-  MapReadingKind bySize;   ///< how the map is read where a size in texels is given
+  MapReadingKind bySize;   ///< where a size in texels is given
   MapReadingKind byRadius; ///< the same for a radius in metres
-  bool sized;              ///< size and radius have a meaning
-  bool moments;            ///< depths are blurred before they are read
 };
 
-constexpr std::array kFilters{
-    FilterTraits{FilterType::hard, MapReadingKind::texels, MapReadingKind::texels, false, false},
-    FilterTraits{FilterType::pcf, MapReadingKind::texels, MapReadingKind::disc, true, false},
-    FilterTraits{FilterType::vsm, MapReadingKind::vsm, MapReadingKind::vsm, true, true},
-    FilterTraits{FilterType::evsm, MapReadingKind::evsm, MapReadingKind::evsm, true, true},
-    FilterTraits{FilterType::msm, MapReadingKind::msm, MapReadingKind::msm, true, true},
-    FilterTraits{FilterType::pcss, MapReadingKind::pcss, MapReadingKind::pcss, false, false},
+constexpr std::array kFilterReadings{
+    FilterReading{FilterType::hard, MapReadingKind::texels, MapReadingKind::texels},
+    FilterReading{FilterType::pcf, MapReadingKind::texels, MapReadingKind::disc},
+    FilterReading{FilterType::vsm, MapReadingKind::vsm, MapReadingKind::vsm},
+    FilterReading{FilterType::evsm, MapReadingKind::evsm, MapReadingKind::evsm},
+    FilterReading{FilterType::msm, MapReadingKind::msm, MapReadingKind::msm},
+    FilterReading{FilterType::pcss, MapReadingKind::pcss, MapReadingKind::pcss},
 };
-static_assert(rowsAreComplete(kFilters, &FilterTraits::type));
+static_assert(rowsAreComplete(kFilterReadings, &FilterReading::type));
 
 constexpr double kFloatRounding = 0x1p-24; ///< of a float operation, relative; also the step of floats below 1
 
 } // namespace
 
 FilterKernel kernelOf(const Filter& filter, double lightRadius) {
-  const FilterTraits& traits = kFilters[static_cast<std::size_t>(filter.type)];
+  const FilterTraits& traits = traitsOf(filter.type);
+  const FilterReading& reading = kFilterReadings[static_cast<std::size_t>(filter.type)];
   FilterKernel kernel;
   kernel.moments = traits.moments;
   if (traits.sized && filter.radius) {
-    kernel.kind = traits.byRadius;
+    kernel.kind = reading.byRadius;
     kernel.radius = *filter.radius;
   } else {
-    kernel.kind = traits.bySize;
+    kernel.kind = reading.bySize;
     kernel.size = traits.sized ? filter.size : 1;
   }
   if (kernel.kind == MapReadingKind::pcss) {

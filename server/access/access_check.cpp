@@ -116,11 +116,13 @@ class AccessCheck {
       Admission admission = usage->admit(key);
       if (!admission.place) return tooOften(key, admission.retryAfterSeconds, asked);
       if (isSigned) dropSignature(asked);
-      asked.client = {"key " + key.name, "key " + key.name};
+      const ClientIdentity client{"key " + key.name, "key " + key.name};
+      asked.client = client;
       asked.key = key.name;
       asked.isAdmin = allows(key.scope, Scope::admin);
       HttpReply reply = answer(std::move(asked), clientGone);
       reply.key = key.name;
+      reply.client = client;
       keepPrivate(reply, expires);
       holdWhileSent(reply, admission.place);
       return reply;

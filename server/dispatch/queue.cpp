@@ -110,7 +110,7 @@ bool Dispatcher::mayWait(const Ticket& last) const {
     others.byClient += ticket->task.client.name == last.task.client.name ? 1 : 0;
     others.bySite += ticket->task.client.site == last.task.client.site ? 1 : 0;
   }
-  return mayTakeOne(others);
+  return mayTake(others, 1, Share::half);
 }
 
 /// Of a full queue, the newest task of the client that has the most there, so that a client that comes gets a place as

@@ -64,7 +64,7 @@ bool EventStream::sendTo(const BodySink& sink, std::chrono::milliseconds pause) 
 }
 
 std::string problemText(const Problems& reasons, const std::string& requestId) {
-  const Problems& problems = atLeastOne(reasons);
+  const Problems problems = atLeastOne(reasons);
   return jsonText(problemJson(problems, statusOf(problems.front().code), requestId));
 }
 

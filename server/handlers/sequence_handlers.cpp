@@ -151,7 +151,9 @@ HttpReply postSequence(Services& services, RouteCall call) {
   if (!isVideo) return sequenceReply(sequenceForm(type, call), call, std::move(frames), std::move(first), report);
   auto video = videoForm(settings, *first, services.videoMemory, holderOf(call.request));
   if (!video) return refusal(video.problems().front(), RefusalReason::memory, requestId);
-  return sequenceReply(*std::move(video), call, std::move(frames), std::move(first), report);
+  HttpReply reply = sequenceReply(*std::move(video), call, std::move(frames), std::move(first), report);
+  reply.memory = &services.videoMemory;
+  return reply;
 }
 
 } // namespace gnomon

@@ -80,6 +80,7 @@ class Connection {
     if (const auto later = std::exchange(held->reply.later, nullptr)) {
       HttpReply reply = guarded(held->record.id, later);
       reply.key = std::move(held->reply.key);
+      reply.client = std::move(held->reply.client);
       std::move(held->reply.headers.begin(), held->reply.headers.end(), std::back_inserter(reply.headers));
       held->reply = std::move(reply);
     }
@@ -119,7 +120,7 @@ class Connection {
       return send(problemReply(request.problems(), record.id, {.read = RequestPart::head}), record, false, false);
     }
     request->client = client.identity;
-    holder_ = holderOf(*request);
+    holder_ = gnomon::holderOf(*request);
     request->arrived = record.start;
     const bool bodyless = request->method == "HEAD";
 
@@ -188,8 +189,8 @@ class Connection {
   /// For a reply beside those that other clients are taking; no longer than the server goes on. Handlers of large
   /// replies have taken it already, before they read them.
   bool awaitRoom(HttpReply& reply) {
-    return reply.room.await(context_.replyBytes, holder_, reply.body.size(), Clock::now() + context_.limits.replyRoom,
-                            [this] { return context_.cutBodies.raised(); });
+    return reply.room.await(context_.replyBytes, holderOf(reply), reply.body.size(),
+                            Clock::now() + context_.limits.replyRoom, [this] { return context_.cutBodies.raised(); });
   }
 
   /// Sends a handler's reply, once there is room for it beside those that other clients are taking.
@@ -221,7 +222,7 @@ class Connection {
     constexpr std::size_t kOnePacket = 1400; // small replies leave in one piece
     if (withBody && reply.body.size() <= kOnePacket) head += reply.body;
     const bool bodyFollows = withBody && reply.body.size() > kOnePacket;
-    ReplySender sender = senderOf();
+    ReplySender sender = senderOf(reply);
     sender.send(head, bodyFollows);
     if (bodyFollows) sender.send(reply.body);
     const bool isSent = sender.delivery() == Delivery::whole;
@@ -230,8 +231,15 @@ class Connection {
     return isSent && keepAlive;
   }
 
-  ReplySender senderOf() {
-    return {connection_.socket.get(), TransferPace(context_.limits.pace, &context_.replyBytes, holder_),
+  /// For whom its bytes are held: for the key, once that is known.
+  Holder holderOf(const HttpReply& reply) const {
+    return {reply.client.name.empty() ? holder_.client : reply.client, holder_.request};
+  }
+
+  ReplySender senderOf(const HttpReply& reply) {
+    std::vector<ByteBudget*> budgets{&context_.replyBytes};
+    if (reply.memory != nullptr) budgets.push_back(reply.memory);
+    return {connection_.socket.get(), TransferPace(context_.limits.pace, std::move(budgets), holderOf(reply)),
             &context_.cutReplies};
   }
 
@@ -250,7 +258,7 @@ class Connection {
   std::shared_ptr<ReplyWait> sendStream(HeldReply& held) {
     HttpReply& reply = held.reply;
     RequestRecord& record = held.record;
-    ReplySender sender = senderOf();
+    ReplySender sender = senderOf(reply);
     const auto sink = [&](std::string_view bytes) {
       const bool isSent = sender.send(bytes) == Delivery::whole;
       record.replyBytes += isSent ? bytes.size() : 0;

@@ -133,13 +133,8 @@ int statusOf(ProblemCode code, RequestPart read) {
   return read == RequestPart::whole ? row.whole : read == RequestPart::head ? row.head : row.body;
 }
 
-const Problems& atLeastOne(const Problems& problems) {
-  static const Problems kUnknown{{ProblemCode::internal, "", "It failed without a reason.", "", ""}};
-  return problems.empty() ? kUnknown : problems;
-}
-
 HttpReply problemReply(const Problems& reasons, std::string_view instance, const ProblemReplyOptions& options) {
-  const Problems& problems = atLeastOne(reasons);
+  const Problems problems = atLeastOne(reasons);
   HttpReply reply;
   reply.status = statusOf(problems.front().code, options.read);
   reply.contentType = "application/problem+json";

@@ -112,6 +112,8 @@ struct HttpReply {
   bool bodyOmitted = false;      ///< HEAD whose body was not made: no Content-Length is sent
   std::vector<StageTime> stages; ///< for the log
   std::string key;               ///< for the log: the name of the key that the client has
+  ClientIdentity client{};       ///< whose bytes the reply takes; without a name the one of its address
+  ByteBudget* memory = nullptr;  ///< of which `stream` holds bytes until it is taken, beside those for replies
   std::string problem;           ///< for the log: the first problem's detail, as the client reads it
   std::string route;             ///< for metrics: that of RequestHandler, where the reply is a refusal of it
   RefusalReason refusal = RefusalReason::none; ///< for metrics
@@ -141,9 +143,6 @@ struct ProblemReplyOptions {
   int retryAfterSeconds = 1;                   ///< sent with status 429 and 503; more than 1 with any
   RefusalReason refusal = RefusalReason::none; ///< for metrics
 };
-
-/// The problems, or, where a list has none, one that says so: what refuses always has a reason.
-const Problems& atLeastOne(const Problems& problems);
 
 /// All problems as application/problem+json (RFC 9457), with the status of the first. `instance` is the request's id.
 HttpReply problemReply(const Problems& problems, std::string_view instance, const ProblemReplyOptions& options = {});

@@ -65,7 +65,7 @@ Delivery ReplySender::send(std::string_view bytes, bool more) {
 }
 
 bool sendAll(int fd, std::string_view bytes, const Pace& pace, const StopSignal* cut) {
-  return ReplySender(fd, TransferPace(pace, nullptr, {}), cut).send(bytes) == Delivery::whole;
+  return ReplySender(fd, TransferPace(pace, {}, {}), cut).send(bytes) == Delivery::whole;
 }
 
 } // namespace gnomon

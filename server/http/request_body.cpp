@@ -38,7 +38,7 @@ std::optional<std::size_t> chunkSize(std::string_view line) {
 class BodyReader {
  public:
   BodyReader(SocketReader& reader, const BodyRule& rule, const Pace& pace, ByteLease& lease, const StopSignal* cut)
-      : reader_(reader), rule_(rule), pace_(pace, &lease.budget(), lease.holder()), lease_(lease), cut_(cut) {}
+      : reader_(reader), rule_(rule), pace_(pace, {&lease.budget()}, lease.holder()), lease_(lease), cut_(cut) {}
 
   /// Appends `count` bytes to the body; false = refused.
   bool append(std::size_t count) {

@@ -31,21 +31,25 @@ void TransferPace::paused(Clock::duration time) {
 
 TransferState TransferPace::state(Clock::time_point now) {
   if (now >= least_.deadline()) return TransferState::tooSlow;
-  if (budget_ == nullptr || now < lookAgain_) return TransferState::goesOn;
+  if (budgets_.empty() || now < lookAgain_) return TransferState::goesOn;
   lookAgain_ = now + kLook;
-  const std::size_t speed = budget_->hurry(holder_, now);
-  if (speed == 0) {
+  ByteBudget* wanted = nullptr; ///< by those who wait, most urgently
+  std::size_t speed = 0;
+  for (ByteBudget* const each : budgets_) {
+    if (const std::size_t own = each->hurry(holder_, now); own > speed) wanted = each, speed = own;
+  }
+  if (wanted == nullptr) {
     hurried_.reset();
     return TransferState::goesOn;
   }
   if (!hurried_) hurried_.emplace(Pace{kNotice, kMost, speed}, now);
   hurried_->setSpeed(speed);
   const bool isLate = now >= hurried_->deadline();
-  return isLate && budget_->mayEndOne(now) ? TransferState::othersWaited : TransferState::goesOn;
+  return isLate && wanted->mayEndOne(now) ? TransferState::othersWaited : TransferState::goesOn;
 }
 
 Clock::time_point TransferPace::wait(Clock::time_point now) const {
-  return std::min(least_.deadline(), budget_ == nullptr ? now + kLook : std::max(lookAgain_, now));
+  return std::min(least_.deadline(), budgets_.empty() ? now + kLook : std::max(lookAgain_, now));
 }
 
 } // namespace gnomon

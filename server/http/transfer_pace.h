@@ -3,6 +3,8 @@
 #include <chrono>
 #include <cstddef>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "server/system/byte_budget.h"
 #include "server/system/clock.h"
@@ -48,9 +50,10 @@ enum class TransferState {
 /// Holds one transfer to its pace, and to the one that a budget asks for while other clients wait.
 class TransferPace {
  public:
-  /// `budget` is nullptr where the bytes are in none, else it outlives this.
-  TransferPace(const Pace& pace, ByteBudget* budget, Holder holder, Clock::time_point start = Clock::now())
-      : pace_(pace), budget_(budget), holder_(std::move(holder)), least_(pace, start), lookAgain_(start) {}
+  /// `budgets`: of which `holder` holds bytes until the transfer ends; they outlive this.
+  TransferPace(const Pace& pace, std::vector<ByteBudget*> budgets, Holder holder,
+               Clock::time_point start = Clock::now())
+      : budgets_(std::move(budgets)), holder_(std::move(holder)), least_(pace, start), lookAgain_(start) {}
 
   void moved(std::size_t bytes, Clock::time_point now);
   void paused(Clock::duration time);
@@ -60,12 +63,11 @@ class TransferPace {
   Clock::time_point wait(Clock::time_point now) const;
 
  private:
-  const Pace pace_;
-  ByteBudget* const budget_;
+  const std::vector<ByteBudget*> budgets_;
   const Holder holder_;
   PaceMeter least_;
   std::optional<PaceMeter> hurried_; ///< while others wait
-  Clock::time_point lookAgain_;      ///< when the budget is asked next
+  Clock::time_point lookAgain_;      ///< when the budgets are asked next
 };
 
 } // namespace gnomon

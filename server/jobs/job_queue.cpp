@@ -47,6 +47,13 @@ Problem noRoomForFrame(std::uint64_t bytes) {
           std::to_string(bytes) + " bytes", ""};
 }
 
+Problem noShareOfBytes(ProblemCode code, std::uint64_t bytes) {
+  return {code, "",
+          "The jobs of this client, or of its network, have its share of the bytes that the server keeps for all "
+          "(--job-bytes); those that it removes make room.",
+          std::to_string(bytes) + " bytes", ""};
+}
+
 Problem poisonProblem(int index, int deliveries) {
   return {ProblemCode::internal, "",
           "Frame " + std::to_string(index) + " was begun again and again, and never finished.", "",

@@ -104,7 +104,8 @@ class JobQueue {
   virtual ~JobQueue() = default;
 
   /// Keeps a job and queues its frames: all, or, where they are chained, the first. Problems: busy where the client has
-  /// as many as it may, or its share of all (fair_shares.h), insufficientStorage where there is no room.
+  /// as many as it may, or its share of all jobs or of their bytes (fair_shares.h: half of the jobs, three quarters of
+  /// the bytes), insufficientStorage where there is no room.
   virtual Status put(const NewJob& job) = 0;
 
   /// A frame whose turn it is: sites take turns, and so do the jobs of each. Waits for one as long as `patience`;
@@ -118,8 +119,8 @@ class JobQueue {
   virtual Result<bool> renew(const FrameTurn& turn) = 0;
 
   /// Keeps what was drawn, once: the second to come with the same frame changes nothing, and neither does a job that is
-  /// gone or failed. In the same step the next frame of a chained job is queued, with `carried`. Where there is no room
-  /// the job fails.
+  /// gone or failed. In the same step the next frame of a chained job is queued, with `carried`. Where there is no
+  /// room, or the client's other jobs have its share of the bytes, the job fails.
   virtual Status finish(const FrameTurn& turn, const JobFrame& frame) = 0;
 
   /// The job fails, and its other frames are not drawn any more. Problems are placed in the job's request.
@@ -166,10 +167,12 @@ std::int64_t unixMilliseconds();
 /// The progress of a job that has not begun.
 JobProgress queuedProgress(const NewJob& job);
 
-Problem tooManyJobs(std::size_t most);            ///< busy: of one client
-Problem noShareOfJobs(std::size_t most);          ///< busy: of one client or site, of those that all have
-Problem noRoomForJobs(std::uint64_t bytes);       ///< insufficientStorage: for a new job
-Problem noRoomForFrame(std::uint64_t bytes);      ///< insufficientStorage: for the pictures of one in work
+Problem tooManyJobs(std::size_t most);       ///< busy: of one client
+Problem noShareOfJobs(std::size_t most);     ///< busy: of one client or site, of those that all have
+Problem noRoomForJobs(std::uint64_t bytes);  ///< insufficientStorage: for a new job
+Problem noRoomForFrame(std::uint64_t bytes); ///< insufficientStorage: for the pictures of one in work
+/// Of one client or site, of the bytes of all jobs: busy for a new job, insufficientStorage for a frame of one in work.
+Problem noShareOfBytes(ProblemCode code, std::uint64_t bytes);
 Problem poisonProblem(int index, int deliveries); ///< internal: every server that took the frame died
 Problem unknownJob(std::string_view id);          ///< notFound
 

@@ -57,6 +57,22 @@ local function settle(id, entry)
   call('XACK', P .. 'stream:' .. id, 'takers', entry)
   call('XDEL', P .. 'stream:' .. id, entry)
 end
+local function bytesOf(id)
+  local job = call('HMGET', P .. 'job:' .. id, 'bytes', 'requestBytes')
+  return (job[1] or 0) + (job[2] or 0)
+end
+local function allBytes() return tonumber(call('GET', P .. 'bytes') or 0) end
+local function hasShare(id, client, site, bytes, limit) -- mayTake() of fair_shares.h; `bytes`: all that the job then has
+  local taken = allBytes() - bytesOf(id)
+  for _, set in ipairs({P .. 'client:' .. client, P .. 'site:' .. site}) do
+    local beside = 0
+    for _, other in ipairs(call('SMEMBERS', set)) do
+      if other ~= id then beside = beside + bytesOf(other) end
+    end
+    if beside > 0 and beside + bytes > math.floor((limit - taken + beside) * 3 / 4) then return false end
+  end
+  return true
+end
 local function fieldsOf(id)
   local fields = call('HMGET', P .. 'job:' .. id, 'key', 'scene', 'state', 'first', 'count', 'done', 'bytes', 'carried',
                       'problems', 'created', 'started', 'changed', 'ended')
@@ -78,9 +94,10 @@ removeOld(tonumber(age))
 local own, ofSite, taken = call('SCARD', P .. 'client:' .. client), call('SCARD', P .. 'site:' .. site), call('ZCARD', P .. 'changed')
 if own >= tonumber(ofClient) then return 'client' end
 if taken >= tonumber(jobs) then return 'room' end
-if tonumber(call('GET', P .. 'bytes') or 0) + #request > tonumber(bytes) then return 'room' end
+if allBytes() + #request > tonumber(bytes) then return 'room' end
 if own >= math.max(math.floor((jobs - taken + own) / 2), 1) then return 'share' end
 if ofSite >= math.max(math.floor((jobs - taken + ofSite) * 3 / 4), 1) then return 'share' end
+if not hasShare(id, client, site, #request, bytes) then return 'bytes' end
 local time = touch(id)
 call('HSET', P .. 'job:' .. id, 'key', key, 'client', client, 'site', site, 'scene', scene, 'request', request, 'requestBytes', #request,
      'first', first, 'count', count, 'chained', chained, 'carried', carried, 'state', 'queued', 'done', 0, 'bytes', 0,
@@ -148,14 +165,18 @@ return 1
 )lua");
 
 const redis::Script kFinish = script(R"lua(
-local id, entry, index, note, pictures, carried, limit, problems = unpack(ARGV)
+local id, entry, index, note, pictures, carried, limit, noRoom, noShare = unpack(ARGV)
 local frame = P .. 'frame:' .. id .. ':' .. index
 if not isOpen(id) then return 'closed' end
 settle(id, entry)
 if call('EXISTS', frame) == 1 then return 'known' end
-if tonumber(call('GET', P .. 'bytes') or 0) + #pictures > tonumber(limit) then
-  finishJob(id, 'failed', problems)
+if allBytes() + #pictures > tonumber(limit) then
+  finishJob(id, 'failed', noRoom)
   return 'room'
+end
+if not hasShare(id, call('HGET', P .. 'job:' .. id, 'client'), siteOf(id), bytesOf(id) + #pictures, limit) then
+  finishJob(id, 'failed', noShare)
+  return 'bytes'
 end
 call('HSET', frame, 'note', note, 'pictures', pictures)
 call('INCRBY', P .. 'bytes', #pictures)
@@ -214,7 +235,7 @@ for _, site in ipairs(call('LRANGE', P .. 'ring', 0, -1)) do
     if job[1] then left = left + job[2] - job[1] - job[3] end
   end
 end
-return {call('ZCARD', P .. 'changed'), left, tonumber(call('GET', P .. 'bytes') or 0)}
+return {call('ZCARD', P .. 'changed'), left, allBytes()}
 )lua");
 
 } // namespace gnomon::job_scripts

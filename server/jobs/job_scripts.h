@@ -20,7 +20,7 @@ namespace gnomon::job_scripts {
 extern const redis::Script kPut;    ///< id, key, client, site, scene, request, first, count, isChained, carried, limits
 extern const redis::Script kTake;   ///< consumer, lease, deliveries, age -> a frame, or nil
 extern const redis::Script kRenew;  ///< id, entry, consumer -> 1 where the frame is still wanted
-extern const redis::Script kFinish; ///< id, entry, index, note, pictures, carried, limit of bytes, problems
+extern const redis::Script kFinish; ///< id, entry, index, note, pictures, carried, limit of bytes, no room, no share
 extern const redis::Script kFail;   ///< id, entry, index, problems
 extern const redis::Script kGiveBack; ///< id, entry, lease, deliveries
 extern const redis::Script kFind;     ///< id, age -> the job's fields, or nil

@@ -4,7 +4,6 @@
 
 #include "protocol/sequence/sequence.h"
 #include "server/jobs/job_queue.h"
-#include "server/system/fair_shares.h"
 
 namespace gnomon {
 namespace {
@@ -21,16 +20,22 @@ LocalJobs::Entry* LocalJobs::at(const std::string& job) {
   return found == entries_.end() ? nullptr : &*found;
 }
 
-LocalJobs::Entries::iterator LocalJobs::drop(Entries::iterator entry) {
-  bytes_ -= bytesOf(entry->job, entry->progress);
-  return entries_.erase(entry);
+/// What all other jobs keep, as the job's client sees it.
+SharedUse LocalJobs::bytesBeside(const NewJob& job) const {
+  SharedUse use{.capacity = limits_.bytes};
+  for (const Entry& entry : entries_) {
+    if (entry.job.id == job.id) continue;
+    const std::uint64_t bytes = bytesOf(entry.job, entry.progress);
+    use.taken += bytes;
+    use.byClient += entry.job.client.name == job.client.name ? bytes : 0;
+    use.bySite += entry.job.client.site == job.client.site ? bytes : 0;
+  }
+  return use;
 }
 
 void LocalJobs::dropOld() {
   const auto oldest = Clock::now() - limits_.age;
-  for (auto entry = entries_.begin(); entry != entries_.end();) {
-    entry = entry->changed < oldest ? drop(entry) : std::next(entry);
-  }
+  entries_.remove_if([&](const Entry& entry) { return entry.changed < oldest; });
 }
 
 void LocalJobs::noteChange(Entry& entry) {
@@ -91,14 +96,19 @@ Status LocalJobs::put(const NewJob& job) {
     use.bySite += entry.job.client.site == job.client.site ? 1 : 0;
   }
   if (use.byClient >= limits_.jobsOfClient) return tooManyJobs(limits_.jobsOfClient);
-  if (use.taken >= use.capacity || bytes_ + job.request.size() > limits_.bytes) return noRoomForJobs(limits_.bytes);
-  if (!mayTakeOne(use)) return noShareOfJobs(limits_.jobs);
+  const SharedUse bytes = bytesBeside(job);
+  if (use.taken >= use.capacity || bytes.taken + job.request.size() > bytes.capacity) {
+    return noRoomForJobs(limits_.bytes);
+  }
+  if (!mayTake(use, 1, Share::half)) return noShareOfJobs(limits_.jobs);
+  if (!mayTake(bytes, job.request.size(), Share::threeQuarters)) {
+    return noShareOfBytes(ProblemCode::busy, limits_.bytes);
+  }
   auto file = ResultFile::make(directory_);
   if (!file) return std::move(file).problems();
   Entry entry{.job = job, .progress = queuedProgress(job), .file = *std::move(file)};
   const int end = job.isChained ? job.first + 1 : job.count;
   for (int index = job.first; index < end; ++index) entry.waiting.push_back({index, job.carried});
-  bytes_ += job.request.size();
   entries_.push_front(std::move(entry));
   queued_.notify_all();
   return Done{};
@@ -161,8 +171,12 @@ Status LocalJobs::finish(const FrameTurn& turn, const JobFrame& frame) {
   };
   Entry* entry = wanted();
   if (entry == nullptr) return Done{};
-  if (bytes_ + frame.pictures.bytes().size() > limits_.bytes) {
-    end(*entry, JobState::failed, {noRoomForFrame(limits_.bytes)});
+  const SharedUse bytes = bytesBeside(entry->job);
+  const std::uint64_t own = bytesOf(entry->job, entry->progress) + frame.pictures.bytes().size();
+  if (!mayTake(bytes, own, Share::threeQuarters)) {
+    end(*entry, JobState::failed,
+        {bytes.taken + own > bytes.capacity ? noRoomForFrame(limits_.bytes)
+                                            : noShareOfBytes(ProblemCode::insufficientStorage, limits_.bytes)});
     return Done{};
   }
   const std::shared_ptr<ResultFile> file = entry->file;
@@ -179,7 +193,6 @@ Status LocalJobs::finish(const FrameTurn& turn, const JobFrame& frame) {
   entry->taken.erase(turn.receipt);
   std::erase_if(entry->taken, [&](const auto& taken) { return taken.second.frame.index == turn.index; });
   std::erase_if(entry->waiting, [&](const WaitingFrame& waiting) { return waiting.index == turn.index; });
-  bytes_ += frame.pictures.bytes().size();
   JobProgress& progress = entry->progress;
   progress.bytes += frame.pictures.bytes().size();
   ++progress.done;
@@ -261,19 +274,16 @@ Result<std::optional<JobFrame>> LocalJobs::frame(const std::string& job, int ind
 
 Result<bool> LocalJobs::remove(const std::string& job) {
   const std::lock_guard lock(mutex_);
-  const auto found =
-      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.job.id == job; });
-  if (found == entries_.end()) return false;
-  drop(found);
-  return true;
+  return entries_.remove_if([&](const Entry& entry) { return entry.job.id == job; }) > 0;
 }
 
 Result<JobsSize> LocalJobs::size() {
   const std::lock_guard lock(mutex_);
   dropOld();
-  JobsSize size{.jobs = entries_.size(), .bytes = bytes_};
+  JobsSize size{.jobs = entries_.size()};
   for (const Entry& entry : entries_) {
     const JobProgress& progress = entry.progress;
+    size.bytes += bytesOf(entry.job, progress);
     if (!progress.isEnded()) size.framesLeft += progress.count - progress.first - progress.done;
   }
   return size;

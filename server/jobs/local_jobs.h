@@ -9,6 +9,7 @@
 #include "server/jobs/job_queue.h"
 #include "server/jobs/result_file.h"
 #include "server/system/clock.h"
+#include "server/system/fair_shares.h"
 
 namespace gnomon {
 
@@ -62,7 +63,7 @@ class LocalJobs final : public JobQueue {
   // With the mutex held
   Entry* at(const std::string& job);
   const KeptFrame* keptAt(const std::string& job, int index);
-  Entries::iterator drop(Entries::iterator entry);
+  SharedUse bytesBeside(const NewJob& job) const;
   void dropOld();
   void takeBackSilent();
   Entry* nextInTurn();
@@ -74,7 +75,6 @@ class LocalJobs final : public JobQueue {
   std::mutex mutex_;
   std::condition_variable queued_;
   Entries entries_; ///< the newest first
-  std::uint64_t bytes_ = 0;
   std::uint64_t turns_ = 0;
 };
 

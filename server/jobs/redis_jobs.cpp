@@ -128,6 +128,7 @@ Status RedisJobs::put(const NewJob& job) {
   if (!reply) return reply.problems();
   if (reply->text == "client") return tooManyJobs(limits_.jobsOfClient);
   if (reply->text == "share") return noShareOfJobs(limits_.jobs);
+  if (reply->text == "bytes") return noShareOfBytes(ProblemCode::busy, limits_.bytes);
   if (reply->text == "room") return noRoomForJobs(limits_.bytes);
   return Done{};
 }
@@ -183,7 +184,8 @@ Status RedisJobs::finish(const FrameTurn& turn, const JobFrame& frame) {
   const auto reply = run(job_scripts::kFinish,
                          {turn.job, turn.receipt, std::to_string(turn.index), textOf(frame.note),
                           std::string(frame.pictures.bytes()), textOf(carriedAfter(turn.before, frame.note.carried)),
-                          std::to_string(limits_.bytes), textOf(Problems{noRoomForFrame(limits_.bytes)})});
+                          std::to_string(limits_.bytes), textOf(Problems{noRoomForFrame(limits_.bytes)}),
+                          textOf(Problems{noShareOfBytes(ProblemCode::insufficientStorage, limits_.bytes)})});
   if (!reply) return reply.problems();
   return Done{};
 }

@@ -9,7 +9,6 @@
 #include "protocol/base/bytes.h"
 #include "protocol/base/text.h"
 #include "server/http/client_address.h"
-#include "server/redis/address.h"
 #include "server/system/numbers.h"
 
 namespace gnomon {
@@ -53,12 +52,6 @@ bool consistsOf(std::string_view text, std::string_view marks) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
            marks.find(c) != std::string_view::npos;
   });
-}
-
-/// A problem on one line.
-std::string sentence(const Problem& problem) {
-  if (problem.limit.empty()) return problem.detail;
-  return problem.detail.substr(0, problem.detail.find_last_not_of('.') + 1) + ": " + problem.limit + ".";
 }
 
 } // namespace
@@ -105,23 +98,6 @@ std::string allowedOriginFault(std::string_view text) {
   if (isOrigin && !host.ends_with(usualPort)) return {};
   return asciiExcerpt(text) +
          " is no origin as browsers send it: https://page.example, without a path and without the usual port.";
-}
-
-std::string networkFault(std::string_view text) {
-  const auto networks = ipNetworks({std::string(text)});
-  if (networks) return {};
-  return asciiExcerpt(text) + ": " + sentence(networks.problems().front());
-}
-
-std::string redisFault(std::string_view text) {
-  const auto address = redis::parseAddress(text);
-  return address ? std::string() : sentence(address.problems().front());
-}
-
-std::string storeFault(std::string_view text) {
-  if (redis::isAddress(text)) return redisFault(text);
-  if (text.find("://") == std::string_view::npos) return {};
-  return "It is neither a directory nor an address that begins with redis:// or rediss://.";
 }
 
 } // namespace gnomon

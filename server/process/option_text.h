@@ -5,7 +5,7 @@
 
 #include "protocol/fields/fields.h"
 
-/// What an option's value may be as text, wherever it comes from.
+/// What an option's value may be as text, wherever it comes from; addresses that are read are in serve_inputs.h.
 namespace gnomon {
 
 /// What is wrong with a text, as a sentence; empty = nothing.
@@ -31,8 +31,5 @@ std::string rangeText(const OptionValue& value);
 std::string listenAddressFault(std::string_view text); ///< a host's name or address, without a port
 std::string allowedHostFault(std::string_view text);   ///< origin_check.h
 std::string allowedOriginFault(std::string_view text); ///< origin_check.h
-std::string networkFault(std::string_view text);       ///< client_address.h
-std::string storeFault(std::string_view text);         ///< a directory, or an address of redis/address.h
-std::string redisFault(std::string_view text);         ///< redis/address.h; never repeats the text
 
 } // namespace gnomon

@@ -61,12 +61,17 @@ FrameSpec drakeColors(const std::string& file, FaultsOf faults) {
   return {};
 }
 
-/// The address that an option has; nothing where it names no Redis.
+/// A problem on one line.
+std::string sentence(const Problem& problem) {
+  if (problem.limit.empty()) return problem.detail;
+  return problem.detail.substr(0, problem.detail.find_last_not_of('.') + 1) + ": " + problem.limit + ".";
+}
+
+/// The address of a Redis that an option names.
 std::optional<redis::Address> redisOf(const ServeOptions& options, const std::string& text, FaultsOf faults) {
-  if (!redis::isAddress(text)) return std::nullopt;
   auto address = redis::parseAddress(text);
   if (!address) {
-    faults.add(address.problems());
+    faults.add(sentence(address.problems().front()));
     return std::nullopt;
   }
   if (!options.redisPasswordFile.empty() && !address->password.empty())
@@ -119,8 +124,26 @@ std::vector<OptionFault> conflictsOf(const ServeOptions& options) {
   return faults;
 }
 
-ServeInputs readInputs(const ServeOptions& options, std::vector<OptionFault>& faults) {
+ServeInputs readAddresses(const ServeOptions& options, std::vector<OptionFault>& faults) {
   ServeInputs inputs;
+  auto proxies = ipNetworks(options.trustedProxies);
+  if (proxies) {
+    inputs.trustedProxies = *std::move(proxies);
+  } else {
+    for (const Problem& each : proxies.problems()) {
+      FaultsOf("trusted-proxies", faults).add(each.actual + ": " + sentence(each));
+    }
+  }
+  if (redis::isAddress(options.store)) {
+    inputs.store = redisOf(options, options.store, {"store", faults});
+  } else if (options.store.find("://") != std::string::npos) {
+    FaultsOf("store", faults).add("It is neither a directory nor an address that begins with redis:// or rediss://.");
+  }
+  if (!options.jobsAddress.empty()) inputs.jobs = redisOf(options, options.jobsAddress, {"jobs", faults});
+  return inputs;
+}
+
+void readFiles(const ServeOptions& options, ServeInputs& inputs, std::vector<OptionFault>& faults) {
   if (!options.keysFile.empty()) {
     auto opened = KeyRing::open(options.keysFile);
     if (opened)
@@ -129,13 +152,6 @@ ServeInputs readInputs(const ServeOptions& options, std::vector<OptionFault>& fa
       FaultsOf("keys", faults).add(opened.problems());
   }
   inputs.drakeColors = drakeColors(options.drakeSpecFile, {"drake-spec", faults});
-  auto proxies = ipNetworks(options.trustedProxies);
-  if (proxies)
-    inputs.trustedProxies = *std::move(proxies);
-  else
-    FaultsOf("trusted-proxies", faults).add(proxies.problems());
-  inputs.store = redisOf(options, options.store, {"store", faults});
-  inputs.jobs = redisOf(options, options.jobsAddress, {"jobs", faults});
   if (!options.redisPasswordFile.empty()) {
     const auto password = redis::passwordFrom(options.redisPasswordFile);
     if (!password) FaultsOf("redis-password-file", faults).add(password.problems());
@@ -148,7 +164,6 @@ ServeInputs readInputs(const ServeOptions& options, std::vector<OptionFault>& fa
   if (::access(options.workerProgram.c_str(), X_OK) != 0)
     FaultsOf("worker-program", faults)
         .add(options.workerProgram + " can't be executed: " + std::generic_category().message(errno) + ".");
-  return inputs;
 }
 
 } // namespace gnomon

@@ -17,7 +17,7 @@ namespace gnomon {
 
 /// Why a server with such options can't start, whatever the system's state.
 struct OptionFault {
-  std::vector<std::string_view> options; ///< that it is about: "store-bytes"
+  std::vector<std::string_view> options; ///< that it is about: "store-bytes"; several contradict each other
   std::string detail;                    ///< a sentence that names them
 };
 
@@ -33,7 +33,11 @@ struct ServeInputs {
   std::optional<redis::Address> jobs{};  ///< nothing = where the store is
 };
 
-/// Reads them; adds what is wrong to the faults. Starts no thread.
-ServeInputs readInputs(const ServeOptions& options, std::vector<OptionFault>& faults);
+/// The addresses among them; adds what is wrong to the faults. No fault repeats the address of a Redis, which may hold
+/// a password.
+ServeInputs readAddresses(const ServeOptions& options, std::vector<OptionFault>& faults);
+
+/// Adds what is in the files that options name, and what is wrong with it to the faults. Starts no thread.
+void readFiles(const ServeOptions& options, ServeInputs& inputs, std::vector<OptionFault>& faults);
 
 } // namespace gnomon

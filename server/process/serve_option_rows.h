@@ -54,7 +54,7 @@ inline constexpr std::array kStorageRows{
            "comma-separated, `*` = any, which is the default with `--bind 0.0.0.0` or `::`. 421 for others"),
     option("allowed-origins", &ServeOptions::allowedOrigins, {"ORIGINS", {}, allowedOriginFault},
            "Pages of other servers that may use this one, as `https://page.example`; comma-separated, `*` = any"),
-    option("trusted-proxies", &ServeOptions::trustedProxies, {"NETWORKS", {}, networkFault},
+    option("trusted-proxies", &ServeOptions::trustedProxies, {"NETWORKS"},
            "Addresses and networks of [proxies](#proxies), as `10.0.0.0/8`, whose `X-Forwarded-For` or `Forwarded` is "
            "trusted; comma-separated"),
     option("keys", &ServeOptions::keysFile, kFile,
@@ -63,7 +63,7 @@ inline constexpr std::array kStorageRows{
     option("drake-spec", &ServeOptions::drakeSpecFile, kFile,
            "File with a frame specification, JSON without size, `camera`, `views` and `output`, by which `POST "
            "/render` draws color pictures for [Drake](API.md#drake); without it a sun from above"),
-    option("store", &ServeOptions::store, {"DIR|ADDRESS", {}, storeFault},
+    option("store", &ServeOptions::store, {"DIR|ADDRESS"},
            "Directory that [keeps scenes](#store) and their light maps over a restart, or address of a Redis server "
            "that does, as `redis://HOST:6379/0`, or `rediss://` for TLS; without it they are kept in memory"),
     option("store-bytes", &ServeOptions::storeBytes, kCache,
@@ -143,7 +143,7 @@ inline constexpr std::array kLimitRows{
 };
 
 inline constexpr std::array kJobRows{
-    option("jobs", &ServeOptions::jobsAddress, {"ADDRESS", {}, redisFault},
+    option("jobs", &ServeOptions::jobsAddress, {"ADDRESS"},
            "Redis that keeps [jobs](#jobs), as `redis://HOST:PORT/DATABASE`, for all servers that name it and share a "
            "store; without it they are in the Redis of `--store`, or else end with the server"),
     option("job-frames", &ServeOptions::jobFrames, {.range = {0, 512}},
@@ -152,7 +152,8 @@ inline constexpr std::array kJobRows{
         "max-jobs", &ServeOptions::jobsPerClient, {.range = {1, 256}},
         "Jobs that are kept for one client, whatever their state; 429 beyond it, and beyond its [share](#load) of all"),
     option("job-bytes", &ServeOptions::jobBytes, kRoom,
-           "Requests and pictures of all jobs, kept in Redis, the directory of `--store` or memory; 507 beyond it"),
+           "Requests and pictures of all jobs, kept in Redis, the directory of `--store` or memory, of one client its "
+           "[share](#load); 507 beyond it"),
     option("job-age", &ServeOptions::jobAgeSeconds, {kSeconds, {1, kLongestAge}},
            "A job is removed with its pictures so long after its last frame, as 12h or 7d"),
 };

@@ -5,15 +5,9 @@
 #include <string_view>
 #include <utility>
 
+#include "server/system/fair_shares.h"
+
 namespace gnomon {
-namespace {
-
-/// Of what others leave, the part that one client may hold.
-std::size_t shareOf(std::size_t bytes) {
-  return bytes - bytes / 4;
-}
-
-} // namespace
 
 std::size_t ByteBudget::used() const {
   const std::lock_guard lock(mutex_);
@@ -22,7 +16,7 @@ std::size_t ByteBudget::used() const {
 
 bool ByteBudget::hasRoom(const Holder& holder, std::size_t bytes) const {
   const std::lock_guard lock(mutex_);
-  return isFree(holder.client, nullptr, bytes);
+  return mayTake(useOf(holder.client, nullptr), bytes, Share::threeQuarters);
 }
 
 int ByteBudget::retryAfterSeconds(Clock::time_point now) const {
@@ -58,7 +52,9 @@ bool ByteBudget::mayEndOne(Clock::time_point now) {
 
 bool ByteBudget::takeBy(ByteLease& lease, std::size_t bytes, Clock::time_point deadline) {
   std::unique_lock lock(mutex_);
-  const auto enough = [&] { return isFree(lease.holder_.client, &lease, bytes); };
+  const auto enough = [&] {
+    return mayTake(useOf(lease.holder_.client, &lease), lease.held_ + bytes, Share::threeQuarters);
+  };
   if (!enough()) {
     noteWaiting(lease, bytes, Clock::now());
     if (Clock::now() >= deadline || !freed_.wait_until(lock, deadline, enough)) return false;
@@ -85,25 +81,16 @@ void ByteBudget::giveBack(ByteLease& lease, std::size_t bytes) {
   freed_.notify_all();
 }
 
-bool ByteBudget::isFree(const ClientIdentity& client, const ByteLease* own, std::size_t bytes) const {
-  const auto hasShare = [&](std::string ClientIdentity::*of) {
-    const std::size_t beside = heldBeside(own, client, of);
-    const std::size_t held = beside + (own != nullptr ? own->held_ : 0);
-    const std::size_t ofOthers = total_ - left_ - held;
-    return beside == 0 || held + bytes <= shareOf(total_ - ofOthers);
-  };
-  return bytes <= left_ && hasShare(&ClientIdentity::name) && hasShare(&ClientIdentity::site);
-}
-
-/// What other requests of the same client or site hold.
-std::size_t ByteBudget::heldBeside(const ByteLease* own, const ClientIdentity& client,
-                                   std::string ClientIdentity::*of) const {
-  std::size_t held = 0;
+/// Without what a lease of the client's own holds.
+SharedUse ByteBudget::useOf(const ClientIdentity& client, const ByteLease* own) const {
+  SharedUse use{.capacity = total_, .taken = total_ - left_ - (own != nullptr ? own->held_ : 0)};
   for (const ByteLease* each : leases_) {
-    const std::string& other = each->holder_.client.*of;
-    if (each != own && !other.empty() && other == client.*of) held += each->held_;
+    const ClientIdentity& other = each->holder_.client;
+    if (each == own || other.name.empty()) continue;
+    use.byClient += other.name == client.name ? each->held_ : 0;
+    use.bySite += other.site == client.site ? each->held_ : 0;
   }
-  return held;
+  return use;
 }
 
 /// A client that asks for more than its share of everything does not count as waiting for others.
@@ -111,10 +98,10 @@ void ByteBudget::noteWaiting(const ByteLease& lease, std::size_t bytes, Clock::t
   constexpr std::chrono::seconds kComing{2}; // a client that was asked to come again is there by then
   const ClientIdentity& client = lease.holder_.client;
   if (client.name.empty()) return;
-  const std::size_t beside = heldBeside(&lease, client, &ClientIdentity::name);
+  const std::size_t beside = useOf(client, &lease).byClient;
   const std::size_t wanted = std::max(lease.held_ + bytes, lease.expected_);
   std::erase_if(waiting_, [&](const Waiting& each) { return each.client.name == client.name || each.until <= now; });
-  if (beside > 0 && beside + wanted > shareOf(total_)) return;
+  if (!mayTake({total_, beside, beside, beside}, wanted, Share::threeQuarters)) return;
   waiting_.push_back({client, wanted, now + timeToStayAway(now) + kComing});
 }
 

@@ -23,13 +23,14 @@ struct Holder {
 };
 
 class ByteLease;
+struct SharedUse;
 
 /// Bytes that all requests together may hold. Any thread.
 ///
 /// One request of a client may hold whatever is free. All requests of a client together, and those of a site, hold at
-/// most three quarters of what others leave. A client that found no room counts as waiting until it has found some, at
-/// most as long as it was asked to stay away. While it waits, transfers of the site that holds most have to keep a pace
-/// that follows from what they hold.
+/// most three quarters of what others leave (mayTake() of fair_shares.h). A client that found no room counts as waiting
+/// until it has found some, at most as long as it was asked to stay away. While it waits, transfers of the site that
+/// holds most have to keep a pace that follows from what they hold.
 class ByteBudget {
  public:
   explicit ByteBudget(std::size_t bytes) : total_(bytes), left_(bytes) {}
@@ -69,8 +70,7 @@ class ByteBudget {
   void giveBack(ByteLease& lease, std::size_t bytes);
 
   // With the mutex held:
-  bool isFree(const ClientIdentity& client, const ByteLease* own, std::size_t bytes) const;
-  std::size_t heldBeside(const ByteLease* own, const ClientIdentity& client, std::string ClientIdentity::*of) const;
+  SharedUse useOf(const ClientIdentity& client, const ByteLease* own) const;
   void noteWaiting(const ByteLease& lease, std::size_t bytes, Clock::time_point now);
   std::chrono::seconds timeToStayAway(Clock::time_point now) const;
 

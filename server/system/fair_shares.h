@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -9,37 +10,42 @@
 
 #include "server/system/client_identity.h"
 
-/// Shares of what all clients use together: threads, places in queues, jobs.
+/// Shares of what all clients use together: threads, places in queues, jobs, bytes.
 namespace gnomon {
 
 /// How much of something is taken, as one client sees it.
 struct SharedUse {
-  std::size_t capacity = 0;
-  std::size_t taken = 0;    ///< by all
-  std::size_t byClient = 0; ///< of these
-  std::size_t bySite = 0;   ///< of these, those of its site, its own included
+  std::uint64_t capacity = 0;
+  std::uint64_t taken = 0;    ///< by all
+  std::uint64_t byClient = 0; ///< of these
+  std::uint64_t bySite = 0;   ///< of these, those of its site, its own included
 };
 
-/// Whether the client may take one more: as long as it has no more than half of what other clients leave, and its site
-/// no more than three quarters of what other sites leave. One is always allowed where one is left.
-constexpr bool mayTakeOne(const SharedUse& use) {
-  const std::size_t leftToClient = use.capacity - std::min(use.capacity, use.taken - use.byClient);
-  const std::size_t leftToSite = use.capacity - std::min(use.capacity, use.taken - use.bySite);
-  return use.taken < use.capacity && use.byClient < std::max<std::size_t>(leftToClient / 2, 1) &&
-         use.bySite < std::max<std::size_t>(leftToSite * 3 / 4, 1);
+/// Of what others leave, the part that one client may have.
+enum class Share { half, threeQuarters };
+
+/// Whether the client may take so many more: those that it has and these are at most its share of what other clients
+/// leave, and those of its site three quarters of what other sites leave. One that has none may take all that is left.
+constexpr bool mayTake(const SharedUse& use, std::uint64_t more, Share share) {
+  const auto isWithin = [&](std::uint64_t own, std::uint64_t quarters) {
+    const std::uint64_t left = use.capacity - std::min(use.capacity, use.taken - own);
+    return own == 0 || own + more <= left * quarters / 4;
+  };
+  return more <= use.capacity - std::min(use.capacity, use.taken) &&
+         isWithin(use.byClient, share == Share::half ? 2 : 3) && isWithin(use.bySite, 3);
 }
 
 /// Who holds how many. Any thread.
 class FairShares {
  public:
-  /// `most`: of one client, instead of the share that mayTakeOne() gives; 0 = that share.
+  /// `most`: of one client, instead of half of what others leave; 0 = that half.
   explicit FairShares(std::size_t capacity, std::size_t most = 0) : capacity_(capacity), most_(most) {}
 
   /// False where this client has its share, or all are taken.
   bool take(const ClientIdentity& client) {
     const std::lock_guard lock(mutex_);
     const SharedUse use{capacity_, taken_, countOf(byName_, client.name), countOf(bySite_, client.site)};
-    if (most_ > 0 ? use.taken >= capacity_ || use.byClient >= most_ : !mayTakeOne(use)) return false;
+    if (most_ > 0 ? use.taken >= capacity_ || use.byClient >= most_ : !mayTake(use, 1, Share::half)) return false;
     ++taken_;
     ++byName_[client.name];
     ++bySite_[client.site];

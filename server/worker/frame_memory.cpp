@@ -85,7 +85,7 @@ std::size_t shadowBytes(const FrameSpec& spec, std::span<const Light> lights, st
   for (const int index : mappedLights(lights, spec)) {
     const Light& light = lights[static_cast<std::size_t>(index)];
     texels += tileTexels(light, spec);
-    if (hasMoments(light.shadow->filter)) moments += tileTexels(light, spec);
+    if (traitsOf(light.shadow->filter.type).moments) moments += tileTexels(light, spec);
   }
   const double room = static_cast<double>(spec.atlas.size) * spec.atlas.size;
   const auto atTexel = static_cast<std::size_t>(spec.atlas.samples) * device.tileTexel;

@@ -1,5 +1,6 @@
 #include "server/worker/orders.h"
 
+#include <algorithm>
 #include <array>
 #include <exception>
 #include <new>
@@ -30,13 +31,19 @@ Problem noMemoryFor(const Presence& order) {
   if (!order.wasAlone()) {
     return {ProblemCode::unavailable, "", "Other requests use the memory that this one needs.", "", ""};
   }
-  return {ProblemCode::tooLarge, "", "The request needs more memory than a worker may use.", "", ""};
+  return noMemory("", "The request needs more memory than a worker may use.");
+}
+
+Answer judgedAnswer(Answer answer, const Presence& order) {
+  const bool lacksMemory = std::any_of(answer.problems.begin(), answer.problems.end(), isNoMemory);
+  if (lacksMemory && !order.wasAlone()) answer.problems = {noMemoryFor(order)};
+  return answer;
 }
 
 Answer carryOut(WorkContext& context, const OrderCall& call) noexcept {
   const Presence presence(context.atWork);
   try {
-    return kOrderTraits[static_cast<std::size_t>(call.order.kind)].carryOut(context, call);
+    return judgedAnswer(kOrderTraits[static_cast<std::size_t>(call.order.kind)].carryOut(context, call), presence);
   } catch (const std::bad_alloc&) {
     return {{noMemoryFor(presence)}};
   } catch (const std::exception& error) {

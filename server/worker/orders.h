@@ -77,6 +77,11 @@ class Presence {
 /// others, whose memory comes back, were carried out beside it.
 Problem noMemoryFor(const Presence& order);
 
+struct Answer;
+/// The answer of an order; where memory was lacking for a part of it (noMemory() of result.h) beside other orders, that
+/// it is unavailable.
+Answer judgedAnswer(Answer answer, const Presence& order);
+
 /// What all orders of a worker share. Outlives them; each part may be used by any thread.
 struct WorkContext {
   RenderThread& renderer;

@@ -10,6 +10,7 @@
 
 #include "protocol/evaluation/evaluation.h"
 #include "protocol/json/json_codec.h"
+#include "protocol/spec/traits.h"
 #include "renderer/charts/charts.h"
 #include "renderer/evaluation/evaluate.h"
 #include "renderer/render.h"
@@ -157,8 +158,7 @@ std::string AccuracySums::sceneTable() const {
 
 /// Filtered before it is read, which costs as much as a dozen other maps.
 bool isPrefiltered(const FrameSpec& spec) {
-  const FilterType type = spec.shadow.filter.type;
-  return type != FilterType::hard && type != FilterType::pcf && type != FilterType::pcss;
+  return traitsOf(spec.shadow.filter.type).moments;
 }
 
 /// Hard maps first: all others are held against them. Prefiltered ones last, and of them the middle size alone.

@@ -39,6 +39,20 @@ class ClientConfiguration(CommandLine):
         self.assertEqual((size, spec["shadow"]["cascadeCount"], spec["shadow"]["filter"]["size"]), ((16, 12), 2, 3))
         self.assertEqual(self.frame("--preset", "tiny", "--size", "20x10", **self.there)[0], (20, 10))
 
+    def test_a_switch_with_a_word_and_a_file_or_a_word_are_flags_too(self):
+        self.config.write_text('size = "16x12"\nground = true\nenvironment = "sky"\n'
+                               '[preset.seen]\nground = "surface"\nenvironment = "studio"\n')  # fmt: skip
+        spec = self.frame(**self.there)[1]
+        self.assertEqual((spec["ground"]["mode"], "sky" in spec["environment"]), ("catcher", True))
+        spec = self.frame("--preset", "seen", **self.there)[1]
+        self.assertEqual((spec["ground"]["mode"], "sky" in spec["environment"]), ("surface", False))
+        self.config.write_text('environment = "sky.hdr"\ntransparent = true\nquiet = "maybe"')
+        self.assert_ends(gnomon("render", "--show-config", **self.there), USAGE, "it is true or false")
+        self.config.write_text('environment = "sky.hdr"\ntransparent = true')
+        lines = gnomon("render", "--show-config", **self.there).stdout.decode().splitlines()
+        self.assertIn(f'environment = "{self.folder}/gnomon/sky.hdr"  # {self.config}:1', lines)
+        self.assertIn(f"transparent = 0  # {self.config}:2", lines)
+
     def test_the_file_can_be_another_one_or_none(self):
         other = self.folder / "other"
         other.write_text("size = '8x6'")

@@ -7,6 +7,7 @@ import unittest
 from pathlib import Path
 
 from command_line import BOX, OK, PROBLEM, SMALL, USAGE, AgainstServer, CommandLine, gnomon, split_glb
+from environments import RED
 from shipped_server import Server
 
 
@@ -63,6 +64,16 @@ class WithServer(AgainstServer):
             for path in written:
                 path.unlink()
         return files
+
+    def test_an_environment_is_uploaded_with_the_scene(self):
+        picture = self.folder / "red.hdr"
+        picture.write_bytes(RED)
+        here, there = self.both("--environment", str(picture))
+        self.assertEqual(here, there)
+        run = gnomon("upload", BOX, "--environment", str(picture), "--server", self.url)
+        self.assert_ends(run, OK)
+        self.render("--environment", "red.hdr", "--server", self.url, scene=run.stdout.decode().split()[0])
+        self.assertEqual([(self.output.name, self.output.read_bytes())], here)
 
     def test_the_same_bytes_here_and_there(self):
         for arguments in (

@@ -7,6 +7,7 @@ import zipfile
 from pathlib import Path
 
 from command_line import BOX, OK, PROBLEM, SMALL, USAGE, CommandLine, gnomon, split_glb
+from environments import RED
 from extreme_scene import demo_with
 from shipped_server import EXR_MAGIC, png_size
 
@@ -17,6 +18,21 @@ class Render(CommandLine):
         self.assertEqual(png_size(self.output.read_bytes()), (64, 48))
         self.assertEqual((run.stdout, run.stderr), (b"", b""))
         self.assertEqual(os.listdir(self.folder), ["frame.png"])
+
+    def test_the_sun_stands_by_place_and_time(self):
+        self.render("--sun", "48.1,11.6 2026-06-21T17:00+02:00")
+        there = self.output.read_bytes()
+        sun = {"latitudeDegrees": 48.1, "longitudeDegrees": 11.6, "time": "2026-06-21T15:00:00Z"}
+        self.render("--set", "lights=" + json.dumps([{"sun": sun}]))
+        self.assertEqual(self.output.read_bytes(), there)
+        self.render("--sun", "48.1,11.6 2026-06-21T08:00+02:00")
+        self.assertNotEqual(self.output.read_bytes(), there)
+        night = self.render("--sun", "48.1,11.6 2026-06-21T23:30+02:00").stderr.decode()
+        self.assertRegex(night, "^gnomon: warning: Light 0 gives no light: [^\n]* 1[0-9] degrees below the horizon.\n$")
+        for text, said in (("48.1,11.6 noon", "--sun (/lights/0/sun/time)"),
+                           ("95,11.6 2026-06-21T17:00Z", "--sun (/lights/0/sun/latitudeDegrees)")):
+            run = gnomon("render", BOX, "-o", str(self.output), "--sun", text)
+            self.assert_ends(run, PROBLEM, said)
 
     def test_what_is_repaired_is_told_and_can_be_refused(self):
         longer = self.folder / "longer.glb"
@@ -125,6 +141,41 @@ class Render(CommandLine):
         run = gnomon("render", BOX, "-o", str(self.output), *SMALL, "--reference", "--set", "shadow.enabled=false")
         self.assert_ends(run, PROBLEM, "(error)", "shadow")
         self.assert_ends(gnomon("render", BOX, "-o", "-", "--format", "png", "--reference"), USAGE, "--reference")
+
+    def test_an_environment_goes_with_the_scene(self):
+        scene = self.folder / "scene.glb"
+        scene.write_bytes(Path(BOX).read_bytes())
+        elsewhere = self.folder / "lights" / "red.hdr"
+        elsewhere.parent.mkdir()
+        elsewhere.write_bytes(RED)
+        report = self.folder / "report.json"
+        usual = self.render(scene=str(scene)) and self.output.read_bytes()
+        self.render("--environment", str(elsewhere), "--rotate-environment", "90", "--report", str(report), scene=str(scene))
+        lit = self.output.read_bytes()
+        self.assertNotEqual(lit, usual)
+        told = json.loads(report.read_text())["spec"]["environment"]
+        self.assertEqual((told["file"], told["rotationDegrees"]), ("red.hdr", 90))
+        spec = self.folder / "spec.json"
+        spec.write_text(json.dumps({"environment": {"file": "red.hdr"}}))
+        run = gnomon("render", str(scene), "-o", str(self.output), *SMALL, "--spec", str(spec))
+        self.assert_ends(run, PROBLEM, "red.hdr", "The environment names it")
+        (self.folder / "red.hdr").write_bytes(RED)
+        self.render("--spec", str(spec), "--rotate-environment", "90", scene=str(scene))
+        self.assertEqual(self.output.read_bytes(), lit)
+        self.render("--spec", str(spec), "--environment", "studio", scene=str(scene))
+        self.assertEqual(self.output.read_bytes(), usual)
+        self.assert_ends(gnomon("render", BOX, "-o", str(self.output), "--environment", "red.png"), USAGE, ".hdr or .exr")
+        elsewhere.write_bytes(RED[:100])
+        run = gnomon("render", str(scene), "-o", str(self.output), *SMALL, "--environment", str(elsewhere))
+        self.assert_ends(run, PROBLEM, "--environment")
+
+    def test_a_switch_with_a_word_does_not_take_the_scene(self):
+        run = gnomon("render", *SMALL, "--transparent", "--ground", BOX, "-o", str(self.output), "--report", "-")
+        self.assert_ends(run, OK)
+        told = json.loads(run.stdout)["spec"]
+        self.assertEqual((told["ground"]["mode"], told["background"]["alpha"]), ("catcher", 0))
+        run = gnomon("render", BOX, "-o", str(self.output), "--ground=table")
+        self.assert_ends(run, PROBLEM, "--ground", "catcher or surface")
 
     def test_a_gltf_finds_the_files_beside_it(self):
         gltf = split_glb(Path(BOX).read_bytes(), self.folder)

@@ -6,6 +6,7 @@ import os
 import random
 import select
 import shutil
+import signal
 import subprocess
 import threading
 import time
@@ -103,7 +104,7 @@ class Client(threading.Thread):
         while not self.stop_event.is_set():
             try:
                 self.step()
-            except (OSError, http.client.HTTPException) as error:
+            except Exception as error:  # noqa: BLE001 - whatever it is, the client goes on
                 self.tally.note_broken(self.name, repr(error))
                 self.connection = None
             due = max(due + self.period, time.monotonic())
@@ -191,19 +192,32 @@ class Newcomer(Client):
 
 
 class Program(Client):
-    """A program that is run again and again: curl, the command line, a browser."""
+    """A program that is run again and again: curl, the command line, a browser. One that does not end within its
+    patience is killed with all that it started, and counts as a failed attempt."""
 
-    def __init__(self, name, tally, stop, period, command):
+    def __init__(self, name, tally, stop, period, command, patience=60):
         super().__init__(name, tally, stop, period)
-        self.command = command
+        self.command, self.patience = command, patience
 
     def step(self):
-        ended = subprocess.run(self.command, capture_output=True, timeout=60, check=False)
-        if ended.returncode == 0:
+        program = subprocess.Popen(self.command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True)
+        try:
+            output, errors = program.communicate(timeout=self.patience)
+        except subprocess.TimeoutExpired:
+            os.killpg(program.pid, signal.SIGKILL)
+            program.communicate()
+            self.tally.note(self.name, f"not done within {self.patience} s")
+            return
+        if program.returncode == 0:
             self.tally.note(self.name, "served")
         else:
-            words = (ended.stderr or ended.stdout).decode(errors="replace").strip().splitlines()
-            self.tally.note(self.name, f"ended with {ended.returncode}: " + (words[-1][:80] if words else ""))
+            words = (errors or output).decode(errors="replace").strip().splitlines()
+            self.tally.note(self.name, f"ended with {program.returncode}: " + (words[-1][:80] if words else ""))
+
+
+def never_served(tally, clients):
+    names = [client.name for client in clients if isinstance(client, (Program, SteadyReader))]
+    return [f"{name} was never served" for name in names if not tally.served(name)]
 
 
 def programs(tally, stop, binary, url, scene, demo, folder):

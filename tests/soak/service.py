@@ -1,5 +1,6 @@
 """The server under test: a process of this machine or a container, with its store on a disk of its own."""
 
+import http.client
 import json
 import os
 import signal
@@ -7,7 +8,6 @@ import socket
 import subprocess
 import tempfile
 import time
-import urllib.error
 import urllib.request
 from pathlib import Path
 
@@ -15,6 +15,7 @@ from memory_group import MemoryGroup, killed
 
 DISK_BYTES = 96 << 20
 MEMORY_BYTES = 1 << 30  # of the front and its workers together
+PATIENCE = 30  # seconds, for the front to end
 DESCRIPTORS = 1024  # of the front: fewer than the connections that hostile clients open
 
 
@@ -107,7 +108,7 @@ class Service:
             try:
                 with urllib.request.urlopen(self.url + "/readyz", timeout=2):
                     return
-            except (urllib.error.URLError, OSError):
+            except (OSError, http.client.HTTPException):
                 time.sleep(0.1)
         raise SystemExit("soak: the server does not become ready")
 
@@ -124,15 +125,26 @@ class Service:
                 pass
         return len(workers)
 
+    def status_by(self, patience):
+        """The exit status; TimeoutExpired where there is none by then."""
+        if not self.image:
+            return self.process.wait(patience)
+        subprocess.run(["podman", "wait", self.container], check=True, capture_output=True, timeout=patience)
+        return int(self.inspected("{{.State.ExitCode}}"))
+
     def end(self, number):
-        """The exit status of the front after a signal; what it left is gone, too."""
+        """The exit status of the front after a signal, None where it has to be killed; what it left is gone, too."""
         if self.is_limited:
             self.starved += killed(self.pid)
         os.kill(self.pid, number)
+        try:
+            status = self.status_by(PATIENCE)
+        except subprocess.TimeoutExpired:
+            os.kill(self.pid, signal.SIGKILL)
+            self.status_by(None)
+            status = None
         if not self.image:
-            return self.process.wait(30)
-        subprocess.run(["podman", "wait", self.container], check=True, capture_output=True)
-        status = int(self.inspected("{{.State.ExitCode}}"))
+            return status
         self.log.write(subprocess.run(["podman", "logs", self.container], check=False, capture_output=True).stderr)
         subprocess.run(["podman", "rm", "-f", self.container], check=True, capture_output=True)
         return status

@@ -36,7 +36,7 @@ std::string checkBakeOutput(const std::string& output) {
 
 Result<Baked> bakeScene(const BakeOptions& options, const FrameSpec& spec, ProgressLine& progress) {
   progress.stage("reading " + options.scene);
-  const auto bundle = readSceneFile(options.scene, options.reading);
+  const auto bundle = readSceneFile(options.scene, options.reading, requestFiles(spec, options.arguments.environment));
   if (!bundle) return bundle.problems();
   const BakeOrder order{spec, *kindOf(options.output), options.light};
   if (options.where.server.empty()) return bakeHere(*bundle, order, options.where.backend, progress);

@@ -66,7 +66,8 @@ Result<ClientConfig> readConfig(const ConfigOrder& order, const std::vector<std:
 }
 
 std::string valueText(const CLI::Option& option) {
-  if (option.get_expected_min() == 0) return option.count() > 0 ? "true" : "";
+  if (option.get_expected_min() == 0 && option.count() > 0) return configValue(option.results().back());
+  if (option.get_expected_min() == 0) return "";
   if (option.count() == 0) return option.get_default_str().empty() ? "" : configValue(option.get_default_str());
   return option.get_items_expected_max() > 1 ? configList(option.results()) : configValue(option.results().back());
 }

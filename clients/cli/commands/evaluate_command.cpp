@@ -73,7 +73,8 @@ Result<EvaluationReport> measure(const EvaluateOptions& options, const std::stri
   const auto evaluation = decodeEvaluation(request);
   if (!evaluation) return evaluation.problems();
   progress.stage("reading " + options.scene);
-  const auto bundle = readSceneFile(options.scene, options.reading, evaluation->spec.volumes);
+  const auto bundle =
+      readSceneFile(options.scene, options.reading, requestFiles(evaluation->spec, options.arguments.environment));
   if (!bundle) return bundle.problems();
   if (options.where.server.empty()) return evaluateHere(*bundle, *evaluation, options.where.backend, progress);
   const auto remote = remoteOf(options.where);

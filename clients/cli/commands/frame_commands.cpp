@@ -106,7 +106,7 @@ class SceneRun {
       return Done{};
     }
     progress_.stage("reading " + scene);
-    auto bundle = readSceneFile(scene, options_.reading, spec.volumes);
+    auto bundle = readSceneFile(scene, options_.reading, requestFiles(spec, options_.arguments.environment));
     if (!bundle) return bundle.problems();
     return maker_.open(*std::move(bundle), progress_);
   }
@@ -172,7 +172,7 @@ struct PlanOptions {
 
 Result<std::string> planScene(const PlanOptions& options, const FrameSpec& spec, ProgressLine& progress) {
   progress.stage("reading " + options.scene);
-  const auto bundle = readSceneFile(options.scene, options.reading, spec.volumes);
+  const auto bundle = readSceneFile(options.scene, options.reading, requestFiles(spec, options.arguments.environment));
   if (!bundle) return bundle.problems();
   if (options.where.server.empty()) return planHere(*bundle, spec, options.where.backend, progress);
   const auto remote = remoteOf(options.where);

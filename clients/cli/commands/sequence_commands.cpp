@@ -123,7 +123,7 @@ int drawFrames(const SequenceOptions& options, const std::string& requestJson, c
 
 Status openScene(const SequenceOptions& options, const FrameSpec& spec, FrameMaker& maker, ProgressLine& progress) {
   progress.stage("reading " + options.scene);
-  auto bundle = readSceneFile(options.scene, options.reading, spec.volumes);
+  auto bundle = readSceneFile(options.scene, options.reading, requestFiles(spec, options.arguments.environment));
   if (!bundle) return bundle.problems();
   const Status opened = maker.open(*std::move(bundle), progress);
   return opened ? opened : Status(ofScene(options.scene, opened.problems()));
@@ -135,7 +135,8 @@ int submitJob(const SequenceOptions& options, const std::string& requestJson, co
   const auto remote = remoteOf(options.where);
   if (!remote) return printProblems(remote.problems());
   const auto bundle =
-      readSceneFile(options.scene, options.reading, frameSpec(sequence, sequence.first, sequence.carried).volumes);
+      readSceneFile(options.scene, options.reading,
+                    requestFiles(frameSpec(sequence, sequence.first, sequence.carried), options.arguments.environment));
   if (!bundle) return printProblems(bundle.problems());
   auto progress = ProgressLine::onTerminal();
   std::string id;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <functional>
 #include <iostream>
 #include <string_view>
 
@@ -23,19 +24,24 @@ std::string viewNames() {
   return names;
 }
 
+/// A switch, which takes a value where that follows an =.
+CLI::Option* addBareFlag(CLI::App& command, const FieldFlag& field, const std::function<void(std::string)>& take) {
+  return command.add_flag(std::string(field.flag) + "{" + field.bare + "}")->description(field.says)->each(take);
+}
+
 /// `placements`: the other flags that place the camera.
 void addFieldFlags(CLI::App& command, SpecArguments& arguments, std::vector<CLI::Option*> placements) {
   for (const FieldFlag& field : kFieldFlags) {
     // `evaluate` has a --variant of its own: a variant of the frame.
     const bool isTaken = command.get_option_no_throw(field.flag) != nullptr;
-    auto* option = command.add_option_function<std::string>(
-        isTaken ? "--material-variant" : field.flag,
-        [&arguments, &field](const std::string& text) {
-          const auto value = fieldValue(field, text);
-          if (!value) throw CLI::ValidationError(field.flag, value.problems().front().detail);
-          arguments.fields[field.flag] = text;
-        },
-        field.says);
+    const auto take = [&arguments, &field](const std::string& text) {
+      const auto value = fieldValue(field, text);
+      if (!value) throw CLI::ValidationError(field.flag, value.problems().front().detail);
+      arguments.fields[field.flag] = text;
+    };
+    auto* option = field.bare != nullptr ? addBareFlag(command, field, take)
+                                         : command.add_option_function<std::string>(
+                                               isTaken ? "--material-variant" : field.flag, take, field.says);
     option->type_name(field.typeName)->group("Picture");
     if (field.replaces != kOtherPlacements) continue;
     for (CLI::Option* placement : placements) option->excludes(placement);
@@ -47,6 +53,18 @@ std::optional<std::string> askedFormat(const CLI::App& command, const SpecArgume
   const CLI::Option* output = command.get_option_no_throw("--output");
   if (arguments.format || output == nullptr || output->count() == 0) return arguments.format;
   return formatOf(output->results().back());
+}
+
+/// "AZIMUTH,ELEVATION" or "LATITUDE,LONGITUDE TIME".
+std::optional<Sun> sunOf(const std::string& text) {
+  const auto space = text.find(' ');
+  const auto numbers = parseNumbers(std::string_view(text).substr(0, space), 2, 2);
+  if (!numbers) return std::nullopt;
+  const double first = (*numbers)[0], second = (*numbers)[1];
+  if (space == std::string::npos) return Sun{.azimuthDegrees = first, .elevationDegrees = second};
+  return Sun{.latitudeDegrees = first,
+             .longitudeDegrees = second,
+             .time = std::string(trimmed(std::string_view(text).substr(space)))};
 }
 
 /// "Name: value", as a header of HTTP may be.
@@ -96,12 +114,27 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments, std::vector<st
       .add_option_function<std::string>(
           "--sun",
           [&arguments, refuse](const std::string& text) {
-            const auto sun = parseNumbers(text, 2, 2);
-            if (!sun) refuse("--sun", "needs AZIMUTH,ELEVATION in degrees, e.g. 135,40");
-            arguments.sun = {(*sun)[0], (*sun)[1]};
+            arguments.sun = sunOf(text);
+            if (arguments.sun) return;
+            refuse("--sun",
+                   "needs AZIMUTH,ELEVATION in degrees, e.g. 135,40, or 'LATITUDE,LONGITUDE TIME', e.g. "
+                   "'48.1,11.6 2026-06-21T17:00+02:00'");
           },
-          "Place of the sun: degrees clockwise from north (-Z), degrees above the horizon")
-      ->type_name("AZ,EL")
+          "Place of the sun: degrees clockwise from north (-Z), degrees above the horizon; or latitude and longitude "
+          "in degrees and a time with its zone, as '48.1,11.6 2026-06-21T17:00+02:00'")
+      ->type_name("AZ,EL | 'LAT,LON TIME'")
+      ->group("Picture");
+  command
+      .add_option_function<std::string>(
+          "--environment",
+          [&arguments, refuse](const std::string& text) {
+            const std::string wrong = checkEnvironment(text);
+            if (!wrong.empty()) refuse("--environment", wrong);
+            arguments.environment = text;
+          },
+          "What lights the scene from all around: an .hdr or .exr file, which goes with the scene; sky, whose sun is "
+          "that of --sun; or studio, as without this flag")
+      ->type_name("FILE|sky|studio")
       ->group("Picture");
   const std::string cameraSays =
       "Use a camera of the scene, by its name, or its index among the scene's cameras, or node:INDEX";

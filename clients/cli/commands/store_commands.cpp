@@ -18,6 +18,7 @@ namespace {
 struct StoreOptions {
   SceneFileOptions reading;
   std::vector<std::string> items; ///< files, or ids
+  std::string environment;        ///< a file that goes with each; empty = none
   bool json = false;
   WhereOptions where;
 };
@@ -45,10 +46,12 @@ int forEachItem(const StoreOptions& options, Act act) {
   return exit;
 }
 
-Result<std::string> uploadFile(const Remote& remote, const std::string& file, const SceneFileOptions& reading,
+Result<std::string> uploadFile(const Remote& remote, const std::string& file, const StoreOptions& options,
                                ProgressLine& progress) {
   progress.stage("reading " + file);
-  const auto bundle = readSceneFile(file, reading);
+  std::vector<RequestFile> more;
+  if (!options.environment.empty()) more.push_back(environmentFile(options.environment));
+  const auto bundle = readSceneFile(file, options.reading, more);
   if (!bundle) return bundle.problems();
   auto id = sceneId(remote, *bundle, progress);
   if (!id) return about(file, id.problems());
@@ -125,11 +128,16 @@ Subcommand addUploadCommand(CLI::App& app) {
   auto* command = app.add_subcommand("upload", "Give scenes to a server, and print their ids");
   command->add_option("scenes", options->items, "A .glb or .gltf file, or several; - is standard input")->required();
   addSceneFileFlags(*command, options->reading);
+  command
+      ->add_option("--environment", options->environment,
+                   "An .hdr or .exr file that goes with each scene, for frames that name it")
+      ->type_name("FILE")
+      ->group("Model");
   addStoreServerFlags(*command, options->where);
   return {[command] { return command->parsed(); },
           [options] {
             return forEachItem(*options, [&](const Remote& remote, const std::string& file, ProgressLine& progress) {
-              return uploadFile(remote, file, options->reading, progress);
+              return uploadFile(remote, file, *options, progress);
             });
           }};
 }

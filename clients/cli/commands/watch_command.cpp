@@ -31,7 +31,7 @@ struct WatchOptions {
 };
 
 /// The files that the picture is made from, as far as they can be known now.
-std::vector<std::filesystem::path> sourcesOf(const WatchOptions& options, const std::vector<VolumeOptions>& volumes) {
+std::vector<std::filesystem::path> sourcesOf(const WatchOptions& options, const std::vector<RequestFile>& asked) {
   const std::filesystem::path scene(options.scene);
   std::vector<std::filesystem::path> files{scene};
   if (!options.spec.empty()) files.emplace_back(options.spec);
@@ -44,20 +44,19 @@ std::vector<std::filesystem::path> sourcesOf(const WatchOptions& options, const 
       files.push_back(scene.parent_path() / named->path);
     }
   }
-  for (const VolumeOptions& volume : volumes) {
-    if (volume.file.find("..") == std::string::npos) files.push_back(scene.parent_path() / volume.file);
-  }
+  for (auto& place : placesOf(asked, scene.parent_path())) files.push_back(std::move(place));
   return files;
 }
 
 /// Makes the picture once. The sources are watched before they are read, so that no change is missed.
 Status makeOnce(const WatchOptions& options, const ResolvedSpec& resolved, FrameMaker& maker, FileWatch& watch,
                 ProgressLine& progress) {
-  const auto volumes = resolved.spec ? resolved.spec->volumes : std::vector<VolumeOptions>();
-  if (Status watched = watch.watch(sourcesOf(options, volumes)); !watched) return watched;
+  std::vector<RequestFile> asked;
+  if (resolved.spec) asked = requestFiles(*resolved.spec, options.arguments.environment);
+  if (Status watched = watch.watch(sourcesOf(options, asked)); !watched) return watched;
   if (!resolved.spec) return resolved.spec.problems();
   progress.stage("reading " + options.scene);
-  auto bundle = readSceneFile(options.scene, options.reading, resolved.spec->volumes);
+  auto bundle = readSceneFile(options.scene, options.reading, asked);
   if (!bundle) return bundle.problems();
   if (Status opened = maker.open(*std::move(bundle), progress); !opened) return opened;
   const auto rendered = maker.draw(*resolved.spec, progress);

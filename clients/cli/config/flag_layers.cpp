@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "clients/cli/config/client_config.h"
+#include "protocol/base/text.h"
 
 namespace gnomon::cli {
 namespace {
@@ -110,11 +111,13 @@ class Choice {
 
   std::vector<std::string> valuesOf(const CLI::Option& option, const ConfigEntry& entry) const {
     std::vector<std::string> values = entry.values;
-    const bool isFile = option.get_type_name().starts_with("FILE");
-    if (isFile)
-      std::transform(values.begin(), values.end(), values.begin(), [&](const std::string& name) {
-        return name == "-" ? name : fileNamedIn(file_, name, std::getenv("HOME"));
-      });
+    const std::string type = option.get_type_name();
+    const auto words = splitTrimmed(type, '|'); // FILE|sky|studio
+    if (words.empty() || words[0] != "FILE") return values;
+    std::transform(values.begin(), values.end(), values.begin(), [&](const std::string& name) {
+      const bool isWord = name == "-" || std::find(words.begin() + 1, words.end(), name) != words.end();
+      return isWord ? name : fileNamedIn(file_, name, std::getenv("HOME"));
+    });
     return values;
   }
 
@@ -127,12 +130,18 @@ class Choice {
   Problems problems_;
 };
 
+/// What a switch says when it is given without a value.
+std::string bareText(const CLI::Option& option) {
+  return option.get_flag_value(option.get_single_name(), "");
+}
+
 /// What is wrong; empty = the flag has the value.
 std::string setFlag(const FlagSetting& setting) {
   CLI::Option& option = *setting.option;
-  if (isSwitch(option) && setting.values != std::vector<std::string>{"true"}) return "it is true or false";
+  const std::string bare = isSwitch(option) ? bareText(option) : "";
+  if (bare == "true" && setting.values != std::vector<std::string>{"true"}) return "it is true or false";
   try {
-    for (const std::string& value : setting.values) option.add_result(value);
+    for (const std::string& value : setting.values) option.add_result(value == "true" && !bare.empty() ? bare : value);
     option.run_callback();
   } catch (const CLI::Error& error) {
     return error.what();

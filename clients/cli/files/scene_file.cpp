@@ -114,18 +114,20 @@ class BundleReading {
                            "with --allow-outside-files any file", uri.substr(0, kMostQuoted)});
       return;
     }
-    add(named->name, place.file, "The model");
+    add(named->name, place.file, folder_ / named->name, "The model");
   }
 
-  void addVolume(const std::string& name, const std::string& pointer) {
-    if (bundle_.files.contains(name)) return;
-    const Place place = isPlainRelative(name) ? placeOf(folder_, name) : Place{};
+  void addFileOf(const RequestFile& named) {
+    if (named.at) return addFrom(*named.at, named);
+    if (bundle_.files.contains(named.name)) return;
+    const Place place = isPlainRelative(named.name) ? placeOf(folder_, named.name) : Place{};
     if (!place.isInside) {
-      problems_.push_back({ProblemCode::invalidScene, pointer, "The volume names a file that isn't inside its folder.",
-                           "a relative name without \"..\" or a scheme", name.substr(0, kMostQuoted)});
+      problems_.push_back({ProblemCode::invalidScene, named.pointer,
+                           "The " + named.what + " names a file that isn't inside its folder.",
+                           "a relative name without \"..\" or a scheme", named.name.substr(0, kMostQuoted)});
       return;
     }
-    add(name, place.file, "The volume");
+    add(named.name, place.file, folder_ / named.name, "The " + named.what);
   }
 
   Problems takeProblems() { return std::move(problems_); }
@@ -133,7 +135,20 @@ class BundleReading {
  private:
   static constexpr std::size_t kMostQuoted = 200;
 
-  void add(const std::string& name, const std::filesystem::path& file, const std::string& who) {
+  /// A file from anywhere, which goes under its own name: the model's folder may have another one of that name.
+  void addFrom(const std::filesystem::path& file, const RequestFile& named) {
+    const auto model = bundle_.files.find(named.name);
+    if (model == bundle_.files.end()) return add(named.name, file, file, "The " + named.what);
+    std::error_code error;
+    if (std::filesystem::equivalent(file, folder_ / named.name, error)) return;
+    problems_.push_back({ProblemCode::invalidScene, named.pointer,
+                         "The model has another file of the " + named.what + "'s name.", "a name of its own",
+                         named.name.substr(0, kMostQuoted)});
+  }
+
+  /// `shown`: the file as a problem calls it.
+  void add(const std::string& name, const std::filesystem::path& file, const std::filesystem::path& shown,
+           const std::string& who) {
     auto bytes = readFile(file, room_);
     if (bytes) {
       room_ -= bytes->size();
@@ -141,7 +156,7 @@ class BundleReading {
       return;
     }
     for (Problem problem : bytes.problems()) {
-      problem.pointer = (folder_ / name).string();
+      problem.pointer = shown.string();
       problem.detail += " " + who + " names it.";
       problems_.push_back(std::move(problem));
     }
@@ -157,7 +172,7 @@ class BundleReading {
 } // namespace
 
 Result<SceneBundle> readSceneFile(const std::filesystem::path& path, const SceneFileOptions& options,
-                                  std::span<const VolumeOptions> volumes, const Limits& limits) {
+                                  std::span<const RequestFile> files, const Limits& limits) {
   const bool isPiped = path == "-";
   auto model = isPiped ? readStandardInput(limits.maxSceneBytes) : readFile(path, limits.maxSceneBytes);
   if (!model) return model.problems();
@@ -173,9 +188,7 @@ Result<SceneBundle> readSceneFile(const std::filesystem::path& path, const Scene
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   BundleReading reading(bundle, folder, options.allowOutsideFiles, limits.maxSceneBytes - bundle.model.size());
   for (const std::string& uri : uris) reading.addFileOf(uri, isPiped ? "standard input" : path.string());
-  for (std::size_t i = 0; i < volumes.size(); ++i) {
-    reading.addVolume(volumes[i].file, "/volumes/" + std::to_string(i) + "/file");
-  }
+  for (const RequestFile& file : files) reading.addFileOf(file);
   if (Problems problems = reading.takeProblems(); !problems.empty()) return problems;
   return bundle;
 }

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "clients/cli/files/request_files.h"
 #include "protocol/base/result.h"
 #include "protocol/base/scene_bundle.h"
 #include "protocol/spec/limits.h"
-#include "protocol/spec/scene_options.h"
 
 namespace gnomon::cli {
 
@@ -25,9 +25,9 @@ struct SceneFileOptions {
 
 /// Reads a .glb or .gltf and the files that it names; "-" is standard input, whose files lie in the current folder.
 /// Files outside of the model's folder, symbolic links followed, are refused unless the options allow them, and nothing
-/// of them is opened. Those that are not there are left to the loader. `volumes`: their files are read as well, which
-/// lie in the model's folder.
+/// of them is opened. Those that are not there are left to the loader. `files`: what the request names is read as well,
+/// from the model's folder, or from where a flag says that it lies.
 Result<SceneBundle> readSceneFile(const std::filesystem::path& path, const SceneFileOptions& options = {},
-                                  std::span<const VolumeOptions> volumes = {}, const Limits& limits = kLimits);
+                                  std::span<const RequestFile> files = {}, const Limits& limits = kLimits);
 
 } // namespace gnomon::cli

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
@@ -104,8 +105,36 @@ bool isDirectional(const Json& light) {
   return light.is_object() && (!light.contains("type") || light["type"] == "directional");
 }
 
-/// Gives the index of the light that is the sun now.
-std::size_t turnSun(Json& spec, const std::array<double, 2>& sun) {
+/// The environment that a flag names, in place of another; how it is turned and shown stays. Gives the pointer of what
+/// was set.
+std::string replaceEnvironment(Json& spec, const std::string& text) {
+  Json& environment = spec["environment"];
+  if (!environment.is_object()) environment = Json::object();
+  const bool isWord = std::find(kEnvironmentWords.begin(), kEnvironmentWords.end(), text) != kEnvironmentWords.end();
+  environment.erase("file");
+  if (text != "sky") environment.erase("sky");
+  if (text == "sky" && !environment.contains("sky")) environment["sky"] = Json::object();
+  if (!isWord) environment["file"] = std::filesystem::path(text).filename().string();
+  return text == "sky" ? "/environment/sky" : isWord ? "/environment" : "/environment/file";
+}
+
+Json sunJson(const Sun& sun) {
+  Json place = Json::object();
+  if (sun.azimuthDegrees) place["azimuthDegrees"] = *sun.azimuthDegrees;
+  if (sun.elevationDegrees) place["elevationDegrees"] = *sun.elevationDegrees;
+  if (sun.latitudeDegrees) place["latitudeDegrees"] = *sun.latitudeDegrees;
+  if (sun.longitudeDegrees) place["longitudeDegrees"] = *sun.longitudeDegrees;
+  if (sun.time) place["time"] = *sun.time;
+  return place;
+}
+
+/// Gives the pointer of the sun that was turned.
+std::string turnSun(Json& spec, const Sun& sun) {
+  const Json::json_pointer sky("/environment/sky");
+  if (spec.contains(sky) && spec[sky].is_object()) {
+    spec[sky]["sun"] = sunJson(sun);
+    return "/environment/sky/sun";
+  }
   Json& lights = spec["lights"];
   if (!lights.is_array()) lights = Json::array();
   auto light = std::find_if(lights.begin(), lights.end(), isDirectional);
@@ -114,8 +143,8 @@ std::size_t turnSun(Json& spec, const std::array<double, 2>& sun) {
     light = lights.end() - 1;
   }
   light->erase("direction");
-  (*light)["sun"] = {{"azimuthDegrees", sun[0]}, {"elevationDegrees", sun[1]}};
-  return static_cast<std::size_t>(light - lights.begin());
+  (*light)["sun"] = sunJson(sun);
+  return "/lights/" + std::to_string(light - lights.begin()) + "/sun";
 }
 
 /// Into the `output` that the spec has, unless that is no object, which is a problem of its own.
@@ -153,7 +182,8 @@ Status applyFlags(Json& spec, const SpecArguments& flags, FlagOrigins& origins) 
     if (!pointer) problems.insert(problems.end(), pointer.problems().begin(), pointer.problems().end());
   }
   if (flags.device) set("device", *flags.device, "--device");
-  if (flags.sun) origins["/lights/" + std::to_string(turnSun(spec, *flags.sun)) + "/sun"] = "--sun";
+  if (flags.environment) origins[replaceEnvironment(spec, *flags.environment)] = "--environment";
+  if (flags.sun) origins[turnSun(spec, *flags.sun)] = "--sun";
   if (!flags.views.empty()) set("views", flags.views, "--view");
   for (const auto& [path, text] : flags.sets) {
     const auto value = valueOf(text);
@@ -171,6 +201,12 @@ Status applyFlags(Json& spec, const SpecArguments& flags, FlagOrigins& origins) 
 }
 
 } // namespace
+
+std::string checkEnvironment(std::string_view text) {
+  if (std::find(kEnvironmentWords.begin(), kEnvironmentWords.end(), text) != kEnvironmentWords.end()) return "";
+  const std::string suffix = lowerCase(std::filesystem::path(text).extension().string());
+  return suffix == ".hdr" || suffix == ".exr" ? "" : "needs a .hdr or .exr file, or the word sky or studio";
+}
 
 std::optional<std::string> formatOfSets(const std::vector<std::pair<std::string, std::string>>& sets) {
   Json spec = Json::object();

@@ -32,13 +32,20 @@ struct SpecArguments {
   std::optional<int> height;                 ///< --height, --size
   std::optional<std::string> camera;         ///< --camera: its name, its index, or "node:" and its node's index
   std::optional<std::vector<double>> orbit;  ///< --orbit: azimuth, elevation, distance if a third
-  std::optional<std::array<double, 2>> sun;  ///< --sun: azimuth, elevation
+  std::optional<Sun> sun;                    ///< --sun: azimuth and elevation, or place and time
+  std::optional<std::string> environment;    ///< --environment: a file's path, or a word of kEnvironmentWords
   std::vector<std::string> views;            ///< --view
   std::map<std::string, std::string> fields; ///< of kFieldFlags: the flag, and its text
   std::optional<std::string> device;         ///< --device
   std::optional<std::string> format;         ///< `output.format`: --format, or from the output's suffix
   std::vector<std::pair<std::string, std::string>> sets; ///< --set: path, value
 };
+
+/// What --environment takes besides a file: the sky, and the surroundings that there are without either.
+inline constexpr std::array<std::string_view, 2> kEnvironmentWords{"sky", "studio"};
+
+/// What is wrong with --environment; empty = nothing.
+std::string checkEnvironment(std::string_view text);
 
 /// The `output.format` that the last of these --set asks for, by its own path or within `output`; nothing where none
 /// does.
@@ -56,8 +63,9 @@ Problems ofRequest(const std::string& file, Problems problems);
 
 /// `specJson` (a whole FrameSpec, "{}" for none) with the flags laid over it, in the order above but for the format,
 /// which comes last, then checked as the server checks a request. --camera and --orbit replace the placement and keep
-/// the lens; --sun turns the first directional light, or adds one. What is wrong with the JSON by
-/// itself is reported with the `file` that it was read from.
+/// the lens; --environment goes in place of another file or a sky and keeps the rest; --sun turns the sun of the sky,
+/// or where there is none the first directional light, or adds one. What is wrong with the JSON by itself is reported
+/// with the `file` that it was read from.
 ResolvedSpec resolveSpec(const std::string& specJson, const SpecArguments& arguments, const std::string& file = "");
 
 /// The text of a spec in a file; "-" is standard input, an empty name is "{}".
@@ -89,6 +97,7 @@ struct FieldFlag {
   const char* typeName; ///< for help
   const char* replaces; ///< fields of `camera` that go, with a space between: other placements, other lenses
   const char* says;
+  const char* bare = nullptr; ///< text of the flag without a value, which is then given with an = or not at all
 };
 
 inline constexpr const char* kOtherPlacements = "orbit node fit pose";
@@ -107,7 +116,21 @@ inline constexpr std::array kFieldFlags{
     FieldFlag{"--variant", "materialVariant", FlagValue::word, "NAME", "", "A material variant of the scene"},
     FieldFlag{"--background", "background", FlagValue::color, "R,G,B[,A]", "",
               "Linear red, green and blue behind everything, and how opaque it is, 0..1; 0,0,0,0 is transparent"},
+    FieldFlag{"--transparent", "background.alpha", FlagValue::number, "", "",
+              "Nothing behind the scene: the background's alpha is 0", "0"},
     FieldFlag{"--exposure", "exposure", FlagValue::number, "STOPS", "", "Light is multiplied by 2 to this power"},
+    FieldFlag{"--tone-mapping", "toneMapping", FlagValue::word, "NAME", "", "How light becomes the colors of a screen"},
+    FieldFlag{"--rotate-environment", "environment.rotationDegrees", FlagValue::number, "DEGREES", "",
+              "Turns the environment about the vertical axis, clockwise as seen from above"},
+    FieldFlag{"--environment-background", "environment.background", FlagValue::word, "NAME", "",
+              "Whether the environment is seen behind the scene"},
+    FieldFlag{"--sky-shadows", "environment.shadows", FlagValue::word, "", "",
+              "The scene hides a part of the light that comes from all around it, found by rays", "rays"},
+    FieldFlag{"--sky-samples", "environment.samples", FlagValue::number, "RAYS", "",
+              "Rays a pixel of --sky-shadows: more have less noise and take longer"},
+    FieldFlag{"--ground", "ground.mode", FlagValue::word, "", "",
+              "A plane under the scene that takes its shadows and is not seen itself; --ground=surface is seen",
+              "catcher"},
 };
 
 /// The value that a flag's text gives its field, of a color all its numbers. A problem says what the text should be.

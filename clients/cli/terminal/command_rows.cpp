@@ -4,6 +4,7 @@
 
 #include "protocol/base/text.h"
 #include "protocol/spec/enum_rows.h"
+#include "protocol/spec/environment_rows.h"
 
 namespace gnomon::cli {
 namespace {
@@ -27,6 +28,8 @@ std::vector<std::string> choicesOf(const CLI::Option& option) {
   const std::string name = option.get_single_name();
   if (name == "view") return namesOf<View>();
   if (name == "format") return namesOf<ImageFormat>();
+  if (name == "tone-mapping") return namesOf<ToneMapping>();
+  if (name == "environment-background") return namesOf<EnvironmentBackground>();
   return choicesIn(option.get_type_name());
 }
 
@@ -46,8 +49,8 @@ FlagRow rowOf(const CLI::Option& option) {
   row.defaultText = option.get_default_str();
   row.variable = option.get_envname();
   row.group = option.get_group();
-  row.isFile =
-      row.isArgument || row.value == "FILE" || row.name == "--output" || row.name == "--spec" || row.name == "--report";
+  row.isFile = row.isArgument || row.value.starts_with("FILE") || row.name == "--output" || row.name == "--spec" ||
+               row.name == "--report";
   return row;
 }
 

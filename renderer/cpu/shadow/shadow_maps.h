@@ -46,6 +46,13 @@ struct Layer {
   const BakedMap* baked = nullptr; ///< is looked up instead, where there is one
 };
 
+/// What the scene hides of an environment: four shares of 65535 a sample (SkyShadow::values), in the order of Layer.
+struct SkyLayer {
+  const std::uint16_t* values = nullptr; ///< null = nothing is hidden
+  int width = 0;                         ///< pixels
+  int samples = 1;                       ///< a pixel: 1 to 4
+};
+
 inline constexpr auto kTints = [] {
   using glm::vec3;
   return std::array{GNOMON_TINTS_0_3, GNOMON_TINTS_4_7};

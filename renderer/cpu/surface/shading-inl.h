@@ -8,6 +8,7 @@
 
 #include <span>
 
+#include "renderer/cpu/shadow/sky_share-inl.h"
 #include "renderer/cpu/surface/surface-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,10 +18,27 @@ namespace gnomon::cpu::HWY_NAMESPACE {
 struct Lighting {
   std::span<const LightData> lights;
   std::span<const std::uint32_t> lists; ///< lightLists; empty = every light may reach every pixel
+  SkyLayer sky{};
 };
 
 HWY_INLINE SurfacePoint pointOf(const Surface& surface) {
   return surfacePoint(surface.baseColor, surface.metallic, surface.roughness, surface.normal, surface.toEye);
+}
+
+/// As environmentReflected has it. By itself, so that frames in the studio keep their registers.
+inline HWY_NOINLINE Float3 reflectedEnvironment(const FrameScene& scene, const Surface& surface,
+                                                const SurfacePoint& point, const Float4& arriving) {
+  const Float3 reflected =
+      environmentReflected(scene.environment, Float2(scene.frame.environmentTurn), point, surface.baseColor,
+                           surface.metallic, surface.roughness, surface.receiver.normal, arriving);
+  return reflected * scene.frame.environmentIntensity;
+}
+
+/// What surfaces show of the surroundings. `arriving`: what the scene leaves of their light.
+HWY_INLINE Float3 reflectedSurroundings(const FrameScene& scene, const Surface& surface, const SurfacePoint& point,
+                                        const Float4& arriving) {
+  if (scene.environment == nullptr) return Float3(scene.frame.ambient) * ambientReflected(point);
+  return reflectedEnvironment(scene, surface, point, arriving);
 }
 
 /// What one light adds to the lanes `asked`, all of which show a surface. `visibility(light, receiver, toLight,
@@ -44,12 +62,29 @@ HWY_INLINE Float3 radianceFrom(const Lighting& lighting, std::uint32_t light, co
   return select(lights, reflected * left, Float3(0.0f));
 }
 
-/// Adds what the lights of a list, a range of Lighting::lists, send to the lanes `where`.
-template <class Visibility>
-HWY_INLINE void addListed(const Lighting& lighting, std::size_t square, const SurfacePoint& point,
-                          const Receiver& receiver, const Mask& where, const Visibility& visibility, Float3& sum) {
-  for (std::uint32_t k = lighting.lists[2 * square]; k < lighting.lists[2 * square + 1]; ++k) {
-    sum += radianceFrom(lighting, lighting.lists[k], point, receiver, where, visibility);
+/// Calls each(light, where) for the lights that may reach the lanes `lit`, and those of them that each may reach.
+template <class Each>
+HWY_INLINE void forEachLight(const FrameScene& scene, const Lighting& lighting, const Fragments& fragments,
+                             const Mask& lit, const Each& each) {
+  if (lighting.lists.empty()) {
+    for (std::uint32_t k = 0; k < lighting.lights.size(); ++k) each(k, lit);
+    return;
+  }
+  // Squares count from the top of the picture, so that a packet may lie in two of them, or in four.
+  const auto columns = static_cast<std::size_t>((scene.width + GNOMON_REGION_SIZE - 1) / GNOMON_REGION_SIZE);
+  static_assert(GNOMON_REGION_SIZE == 1 << 6);
+  const Int square = shiftRight<6>(Int(scene.height - 1) - fragments.y) * Int(static_cast<std::int32_t>(columns)) +
+                     shiftRight<6>(fragments.x);
+  alignas(64) std::int32_t squares[kLanes];
+  store(square, squares);
+  for (unsigned left = bitsOf(lit); left != 0;) {
+    const std::int32_t own = squares[__builtin_ctz(left)];
+    const Mask where = lit & (square == Int(own));
+    const auto list = static_cast<std::size_t>(own);
+    for (std::uint32_t k = lighting.lists[2 * list]; k < lighting.lists[2 * list + 1]; ++k) {
+      each(lighting.lists[k], where);
+    }
+    left &= ~bitsOf(where);
   }
 }
 
@@ -60,27 +95,46 @@ HWY_INLINE Float3 radianceToEye(const FrameScene& scene, const Lighting& lightin
   const Mask lit = andNot(surface.unlit, fragments.shown);
   if (none(lit)) return surface.emission;
   const SurfacePoint point = pointOf(surface);
-  Float3 sum = surface.emission + Float3(scene.frame.ambient) * ambientReflected(point) * surface.occlusion;
-  if (lighting.lists.empty()) {
-    for (std::uint32_t k = 0; k < lighting.lights.size(); ++k) {
-      sum += radianceFrom(lighting, k, point, surface.receiver, lit, visibility);
-    }
-  } else {
-    // Squares count from the top of the picture, so that a packet may lie in two of them, or in four.
-    const auto columns = static_cast<std::size_t>((scene.width + GNOMON_REGION_SIZE - 1) / GNOMON_REGION_SIZE);
-    static_assert(GNOMON_REGION_SIZE == 1 << 6);
-    const Int square = shiftRight<6>(Int(scene.height - 1) - fragments.y) * Int(static_cast<std::int32_t>(columns)) +
-                       shiftRight<6>(fragments.x);
-    alignas(64) std::int32_t squares[kLanes];
-    store(square, squares);
-    for (unsigned left = bitsOf(lit); left != 0;) {
-      const std::int32_t own = squares[__builtin_ctz(left)];
-      const Mask where = lit & (square == Int(own));
-      addListed(lighting, static_cast<std::size_t>(own), point, surface.receiver, where, visibility, sum);
-      left &= ~bitsOf(where);
-    }
-  }
+  const Float4 arriving =
+      lighting.sky.values != nullptr ? skyShare(lighting.sky, surface.receiver, lit) : Float4(1.0f, 1.0f, 1.0f, 1.0f);
+  Float3 sum = surface.emission + reflectedSurroundings(scene, surface, point, arriving) * surface.occlusion;
+  const auto add = [&](std::uint32_t light, const Mask& where)
+                       HWY_ATTR { sum += radianceFrom(lighting, light, point, surface.receiver, where, visibility); };
+  forEachLight(scene, lighting, fragments, lit, add);
   return select(surface.unlit, surface.emission, sum);
+}
+
+/// What one light brings to the lanes `asked`, all of which catch shadows; `visibility` as in radianceFrom.
+template <class Visibility>
+HWY_INLINE CaughtLight caughtOf(const Lighting& lighting, std::uint32_t light, const Surface& surface,
+                                const Mask& asked, const Visibility& visibility) {
+  const LightData& data = lighting.lights[light];
+  const Int lit = surface.receiver.groupBit & Int(static_cast<std::int32_t>(data.litGroups));
+  Float3 toLight;
+  const Float3 arriving = irradiance(data, surface.receiver.relative, toLight);
+  const Mask arrives = (arriving.x != 0.0f) | (arriving.y != 0.0f) | (arriving.z != 0.0f);
+  const Mask lights = asked & (lit != Int(0)) & arrives & (dot(surface.normal, toLight) > 0.0f);
+  if (none(lights)) return caughtLight(0.0f, 0.0f);
+  const Float share = visibility(light, surface.receiver, toLight, lights);
+  const Float3 left = Float3(data.shadowColor) * (1.0f - share) + Float3(share);
+  const CaughtLight caught = caughtFrom(surface.normal, toLight, arriving, left);
+  return caughtLight(select(lights, caught.all, Float(0.0f)), select(lights, caught.lost, Float(0.0f)));
+}
+
+/// What arrives at lanes that catch shadows.
+template <class Visibility>
+HWY_INLINE CaughtLight caughtHere(const FrameScene& scene, const Lighting& lighting, const Fragments& fragments,
+                                  const Surface& surface, const Mask& asked, const Visibility& visibility) {
+  const Float4 open =
+      lighting.sky.values != nullptr ? skyShare(lighting.sky, surface.receiver, asked) : Float4(1.0f, 1.0f, 1.0f, 1.0f);
+  CaughtLight sum = caughtAround(irradianceOfSurroundings(scene, surface.normal), Float3(open.x, open.y, open.z));
+  const auto add = [&](std::uint32_t light, const Mask& where) HWY_ATTR {
+    const CaughtLight one = caughtOf(lighting, light, surface, where, visibility);
+    sum.all += one.all;
+    sum.lost += one.lost;
+  };
+  forEachLight(scene, lighting, fragments, asked, add);
+  return sum;
 }
 
 } // namespace gnomon::cpu::HWY_NAMESPACE

@@ -9,6 +9,7 @@
 #include "renderer/cpu/lanes/shared_functions-inl.h"
 #include "renderer/cpu/surface/fragments-inl.h"
 #include "renderer/cpu/surface/smooth_place-inl.h"
+#include "renderer/cpu/surface/surroundings-inl.h"
 #include "renderer/cpu/surface/texture_spots-inl.h"
 #include "renderer/cpu/surface/textures.h"
 
@@ -26,6 +27,7 @@ struct Surface {
   Float occlusion; ///< of the surroundings, 1 = open
   Float3 emission; ///< radiance; of what is unlit all that it shows
   Mask unlit;
+  Mask catches; ///< shadows: in view color what is behind shows instead
 };
 
 HWY_INLINE Surface select(const Mask& where, const Surface& yes, const Surface& no) {
@@ -48,6 +50,7 @@ HWY_INLINE Surface select(const Mask& where, const Surface& yes, const Surface& 
   s.occlusion = select(where, yes.occlusion, no.occlusion);
   s.emission = select(where, yes.emission, no.emission);
   s.unlit = (where & yes.unlit) | andNot(where, no.unlit);
+  s.catches = (where & yes.catches) | andNot(where, no.catches);
   return s;
 }
 
@@ -199,12 +202,13 @@ class InstanceSurface {
     if (material_.emissive)
       s.emission = s.emission * texel<kColor>(*material_.emissive, GNOMON_EMISSIVE_UNIT, true).rgb;
     s.unlit = maskOf(material_.unlit ? 0xffffu : 0u);
+    s.catches = maskOf(material_.catchesShadows ? 0xffffu : 0u);
     if (material_.unlit) {
       s.emission = color;
     } else if (material_.transmission > 0) {
       // The diffuse part gives way to the surroundings behind, unshadowed and unbent.
       const Float passing = data_.transmission * (1.0f - metallic);
-      const Float3 behind = Float3(frame_.ambient) * radianceAround(-s.toEye.y, roughness);
+      const Float3 behind = radianceOfSurroundings(scene_, -s.toEye, roughness);
       s.emission += color * passing * behind;
       color *= mix(Float(1.0f), metallic, passing);
     }

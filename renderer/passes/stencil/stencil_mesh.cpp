@@ -82,7 +82,9 @@ double sag(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
 /// How far a caster's volume must reach so that its end lies behind the whole scene.
 double farEnough(const Scene& scene, const SceneView& view, const Instance& instance, const glm::dvec4& light,
                  std::span<const std::int8_t> turns) {
-  const double radius = glm::length(view.bounds.halfExtent());
+  Aabb bounds = view.bounds;
+  if (scene.ground) bounds.add(view.instances.back().bounds);
+  const double radius = glm::length(bounds.halfExtent());
   if (light.w == 0) return 4 * radius;
   const Primitive& primitive = scene.primitives[static_cast<std::size_t>(instance.primitive)];
   double least = 1;
@@ -95,7 +97,7 @@ double farEnough(const Scene& scene, const SceneView& view, const Instance& inst
     least = std::min(least, sag(away(0), away(1), away(2)));
   }
   constexpr double kLeast = 1e-6; // nothing that casts a shadow is seen more edge-on (facings)
-  return 2 * (radius + glm::length(glm::dvec3(light) - view.bounds.center())) / std::max(least, kLeast);
+  return 2 * (radius + glm::length(glm::dvec3(light) - bounds.center())) / std::max(least, kLeast);
 }
 
 /// The places of one caster's walls: two for each vertex that they touch, the near end and the far one.

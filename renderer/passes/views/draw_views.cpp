@@ -5,7 +5,9 @@
 
 #include "protocol/spec/traits.h"
 #include "renderer/core/parallel.h"
+#include "renderer/device/sky_views.h"
 #include "renderer/passes/tiles/atlas_views.h"
+#include "renderer/passes/views/sky_texture.h"
 #include "renderer/volume/volume_picture.h"
 
 namespace gnomon {
@@ -100,6 +102,10 @@ class ViewDrawing {
     if (traits.shadowed) {
       if (const Status there = needExactShadows(samples); !there) return there.problems();
     }
+    const bool sky = showsSkyShadow(work_, request);
+    if (sky) {
+      if (const Status there = needSky(samples); !there) return there.problems();
+    }
     const auto exact = drawn_.exactShadows.find(samples);
     const VisibilityLayers noLayers;
     ViewSources sources{drawn_.surfaces.at(samples),
@@ -108,6 +114,7 @@ class ViewDrawing {
       sources.volumes = &drawn_.volumes.at(samples);
       sources.volumeLight = work_.volumes->light;
     }
+    if (sky) sources.sky = &drawn_.skies.at(samples);
     if (!request.fullStrength) return drawView(inputs_, shading_, sources, request);
 
     const std::vector<LitLight> lights = atFullStrength({shading_.lights.begin(), shading_.lights.end()});
@@ -128,7 +135,9 @@ class ViewDrawing {
     const bool smooth = std::any_of(shading_.lights.begin(), shading_.lights.end(), [](const LitLight& light) {
       return light.tileCount > 0 && light.smoothTerminator;
     });
-    const SurfaceAsks asks{needsTriangles(filled(), *shading_.spec.lights), smooth, shading_.baked.maps};
+    const bool numbered = needsTriangles(filled(), *shading_.spec.lights) ||
+                          shading_.spec.environment.shadows == EnvironmentShadows::rays;
+    const SurfaceAsks asks{numbered, smooth, shading_.baked.maps};
     auto surfaces = drawSurfaces(inputs_, shading_.survey, samples, asks);
     if (!surfaces) return surfaces.problems();
     drawn_.surfaces.emplace(samples, std::move(*surfaces));
@@ -150,6 +159,14 @@ class ViewDrawing {
     auto layers = volumeLayers(inputs_, shading_.survey, drawn_.surfaces.at(samples), *work_.volumes, seen);
     if (!layers) return layers.problems();
     drawn_.volumes.emplace(samples, std::move(*layers));
+    return Done{};
+  }
+
+  Status needSky(int samples) {
+    if (drawn_.skies.contains(samples)) return Done{};
+    auto sky = skyTexture(inputs_, shading_, work_, drawn_.surfaces.at(samples));
+    if (!sky) return sky.problems();
+    drawn_.skies.emplace(samples, std::move(*sky));
     return Done{};
   }
 

@@ -14,6 +14,7 @@ struct DrawnViews {
   std::map<int, ExactShadows>
       exactShadows;                    ///< by samples a pixel; only where a light asks for them and a view shows it
   std::map<int, VolumeLayers> volumes; ///< by samples a pixel; only where the frame has volumes and a view shows them
+  std::map<int, SkyTexture> skies;     ///< by samples a pixel; only where a view shows what an environment's rays find
   CasterNodes casters;                 ///< empty where no view asks for them
   gl::Texture flatAtlas;               ///< R32F; empty where the atlas can be read as it is, or no view asks for it
   std::vector<DrawnView> views;        ///< one a request; an empty one for what is read from the atlas

@@ -1,10 +1,12 @@
 #include "renderer/passes/views/view_pass.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "protocol/spec/traits.h"
 #include "renderer/device/shader_data.h"
 #include "renderer/gl/draw.h"
+#include "renderer/passes/gpu_environments.h"
 #include "renderer/resolve/check_frame.h"
 
 namespace gnomon {
@@ -33,6 +35,7 @@ ViewVariant variantFor(const PassInputs& inputs, const Shading& shading, const V
   variant.emission = surfaces.emission.id() != 0;
   variant.unlit = std::any_of(inputs.scene.materials.begin(), inputs.scene.materials.end(),
                               [](const Material& material) { return material.unlit; });
+  variant.catcher = view == View::color && inputs.scene.ground && inputs.scene.ground->catchesShadows;
   if (traits.shadowed) {
     variant.bakedLights = static_cast<int>(shading.baked.maps.size());
     variant.firstBaked = shading.baked.firstLayer;
@@ -41,6 +44,11 @@ ViewVariant variantFor(const PassInputs& inputs, const Shading& shading, const V
   variant.shadowColor =
       traits.shadowed && std::any_of(shading.lights.begin(), shading.lights.end(),
                                      [](const LitLight& light) { return light.shadowColor != glm::dvec3(0); });
+  variant.skyShadow = sources.sky != nullptr;
+  // Other views show no light from all around.
+  const bool surrounded = traits.source == ViewSource::picture && view != View::lightContribution;
+  variant.environment = surrounded && inputs.environment != nullptr;
+  variant.shownSurroundings = surrounded && shading.spec.environment.background != EnvironmentBackground::none;
   if (sources.volumes != nullptr) {
     variant.volumes = view == View::color;
     variant.volumeLight = sources.volumeLight;
@@ -95,6 +103,8 @@ Result<DrawnView> drawView(const PassInputs& inputs, const Shading& shading, con
 
   bindInputs(inputs);
   const ShadowBindings shadows(shading);
+  std::optional<EnvironmentBinding> environment;
+  if (variant.environment) environment.emplace(*inputs.environment, GNOMON_ENVIRONMENT_UNIT);
   shading.buffers.lists.bindStorage(GNOMON_LIGHT_LIST_BUFFER);
   if (traitsOf(request.view).oneLight) {
     (*program)->set(GNOMON_DEBUG_LIGHT, shading.debugLight);
@@ -114,6 +124,7 @@ Result<DrawnView> drawView(const PassInputs& inputs, const Shading& shading, con
                  {GNOMON_VISIBILITY_UNIT, &sources.visibility.texture},
                  {GNOMON_BAKED_UNIT, &surfaces.bakedShares},
                  {GNOMON_VOLUMES_UNIT, variant.volumes ? &sources.volumes->picture : nullptr},
+                 {GNOMON_SKY_UNIT, sources.sky != nullptr ? &sources.sky->texture : nullptr},
                  {GNOMON_CASTER_NODE_UNIT, &sources.casters.nodes},
                  {GNOMON_CASTER_DEPTH_UNIT, &sources.casters.depth}});
   drawn.timer.stop();

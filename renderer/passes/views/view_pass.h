@@ -75,12 +75,20 @@ struct VolumeLayers {
   gl::Timer timer;
 };
 
+/// SkyShadow of the surfaces' samples.
+struct SkyTexture {
+  gl::Texture texture; ///< array of RGBA16, a layer a sample; empty = nothing is hidden
+  std::uint64_t rays = 0;
+  gl::Timer timer;
+};
+
 /// What one view is made from.
 struct ViewSources {
   const Surfaces& surfaces;              ///< data wants one sample a pixel
   const VisibilityLayers& visibility;    ///< of the surfaces' samples; empty where no light has a layer
   const CasterNodes& casters;            ///< read by the view casterIds
   const VolumeLayers* volumes = nullptr; ///< null where the view knows none
+  const SkyTexture* sky = nullptr;       ///< null where the view knows none
   int volumeLight = -1;                  ///< the light that they shade surfaces from; -1 = none
 };
 

@@ -10,6 +10,7 @@
 #include "renderer/scene/animation/motion.h"
 #include "renderer/scene/findings.h"
 #include "renderer/scene/found_nodes.h"
+#include "renderer/scene/ground.h"
 
 namespace gnomon {
 
@@ -111,10 +112,15 @@ Result<std::shared_ptr<const Scene>> posedScene(const std::shared_ptr<const Scen
   auto places = nodePlaces(pose.nodes, *scene);
   if (!places) return places.problems();
   key.places = *std::move(places);
-  if (!animated && key.places.empty()) return scene;
   input.timeSeconds = key.timeSeconds;
   input.places = key.places;
-  return scene->poses->get(key, [&] { return poseScene(*scene, input); });
+  auto posed = animated || !key.places.empty() ? scene->poses->get(key, [&] { return poseScene(*scene, input); })
+                                               : Result<std::shared_ptr<const Scene>>(scene);
+  if (!posed || !pose.ground) return posed;
+  const auto grounded = [&] { return Result<std::shared_ptr<const Scene>>(groundedScene(**posed, *pose.ground)); };
+  if (!scene->poses) return grounded();
+  key.ground = pose.ground;
+  return scene->poses->get(key, grounded);
 }
 
 Result<std::shared_ptr<const Scene>> posedScene(const Scene& scene, const Pose& pose) {

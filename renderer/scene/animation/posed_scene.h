@@ -43,14 +43,15 @@ LocalTransform moved(LocalTransform local, const NodePlace& place);
 struct Pose {
   std::optional<AnimationMoment> animation{}; ///< none, or one that names none: the file's rest pose
   std::span<const NodeOptions> nodes{};
+  std::optional<GroundPlane> ground{}; ///< under it
 };
 
-/// How a frame poses its scene. The spec outlives the result.
+/// How a frame poses its scene, without a ground. The spec outlives the result.
 inline Pose poseOf(const FrameSpec& spec) {
   return {spec.animation, spec.nodes};
 }
 
-/// The scene in a pose, or itself where nothing moves; kept for the next call. A problem for an animation or node that
+/// The scene in a pose, or itself where nothing moves and nothing is under it; kept for the next call. A problem for an animation or node that
 /// the file lacks. Any thread.
 Result<std::shared_ptr<const Scene>> posedScene(const std::shared_ptr<const Scene>& scene, const Pose& pose);
 
@@ -64,6 +65,7 @@ class PoseCache {
     std::optional<std::size_t> animation;
     double timeSeconds = 0;
     std::vector<NodePlace> places;
+    std::optional<GroundPlane> ground{};
 
     bool operator==(const Key&) const = default;
   };

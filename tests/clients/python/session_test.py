@@ -13,6 +13,7 @@ from tempfile import TemporaryDirectory
 from unittest import mock
 
 import numpy as np
+from environments import RED
 from shipped_server import BINARY, EXR_MAGIC, SCENES, ServerTest
 
 import gnomon
@@ -249,6 +250,15 @@ class Scenes(SessionTest):
             model = write_gltf(Path(folder) / "box.gltf", "box.bin", None)
             with self.assertRaisesRegex(gnomon.BadRequest, '/buffers/0/uri: .*"box.bin"'):
                 self.session.frame(model, **SMALL)
+
+    def test_an_environment_is_one_of_the_files_of_an_upload(self):
+        scene = self.session.upload(BOX, {"red.hdr": RED})
+        self.assertEqual(scene.summary["environmentFiles"], ["red.hdr"])
+        lit = self.session.frame(scene, SMALL | {"environment": {"file": "red.hdr"}, "lights": []}).color
+        red, _, blue = lit[..., :3].reshape(-1, 3).astype(float).mean(axis=0)
+        self.assertGreater(red, blue + 10)
+        with self.assertRaises(gnomon.BadRequest):
+            self.session.frame(BOX, SMALL | {"environment": {"file": "red.hdr"}})
 
     def test_nodes_have_their_names(self):
         nodes = [*self.session.nodes(BOX)]

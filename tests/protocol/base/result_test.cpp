@@ -34,6 +34,21 @@ TEST(Result, HoldsSeveralProblemsInOrder) {
   EXPECT_EQ(result.problems()[1].pointer, "/b");
 }
 
+TEST(Result, ThereIsAlwaysAReason) {
+  const Result<int> result = Problems{};
+  ASSERT_FALSE(result);
+  ASSERT_EQ(result.problems().size(), 1u);
+  EXPECT_EQ(result.problems()[0].code, ProblemCode::internal);
+  EXPECT_FALSE(result.problems()[0].detail.empty());
+  EXPECT_EQ(atLeastOne({{.pointer = "/a"}}).front().pointer, "/a");
+}
+
+TEST(Result, MemoryThatWasNotGivenIsNoLimitThatWasPassed) {
+  EXPECT_TRUE(isNoMemory(noMemory("/images/3", "No memory.")));
+  EXPECT_FALSE(isNoMemory({ProblemCode::tooLarge, "/width", "Too wide.", "1..16384"}));
+  EXPECT_FALSE(isNoMemory({ProblemCode::unavailable, "", "Away."}));
+}
+
 TEST(Result, TheValueCanBeMovedOutAndChanged) {
   Result<std::unique_ptr<int>> result = std::make_unique<int>(3);
   ASSERT_TRUE(result);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "renderer/scene/gltf_loader.h"
@@ -32,10 +33,21 @@ inline Problems problemsOf(const testing::GlbBuilder& builder, const Limits& lim
   return problemsOf(builder.bundle(), limits);
 }
 
-/// The scene, or an empty one with a failure that names the problem.
+/// With the vertices and triangles of its file alone: without the square that grounds are made of, which is the last.
+inline Scene ofFile(Scene scene) {
+  const Primitive square = *std::exchange(scene.groundMesh, std::nullopt);
+  scene.positions.edit().resize(square.baseVertex);
+  scene.attributes.edit().resize(square.baseVertex);
+  scene.indices.edit().resize(square.firstIndex);
+  scene.welded.edit().resize(square.firstIndex);
+  scene.clusters.resize(square.firstCluster);
+  return scene;
+}
+
+/// The scene as `ofFile`, or an empty one with a failure that names the problem.
 inline Scene load(const SceneBundle& bundle, const Limits& limits = kLimits) {
   auto result = loadGltf(bundle, limits);
-  if (result) return **result;
+  if (result) return ofFile(**result);
   const Problem& problem = result.problems().front();
   ADD_FAILURE() << problem.pointer << ": " << problem.detail;
   Scene empty;

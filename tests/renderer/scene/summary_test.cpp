@@ -33,7 +33,7 @@ std::uint64_t sumOf(const MemorySummary& memory) {
 
 TEST(Summary, MemoryByPartAddsUp) {
   const SceneSummary cube = load(testing::cube()).summary;
-  EXPECT_EQ(cube.memory.vertices, 24 * (sizeof(glm::vec3) + sizeof(VertexAttributes)));
+  EXPECT_EQ(cube.memory.vertices, (24 + 4) * (sizeof(glm::vec3) + sizeof(VertexAttributes))) << "and a ground's";
   EXPECT_GE(cube.memory.indices, 36 * sizeof(std::uint32_t));
   EXPECT_EQ(cube.memory.images, 0u);
   EXPECT_EQ(cube.memory.deformation, 0u);

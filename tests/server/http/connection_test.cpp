@@ -198,6 +198,45 @@ TEST_F(ConnectionTest, RepliesThatNobodyTakesLeaveRoomForNoOther) {
   EXPECT_TRUE(has(received, "Retry-After: 10\r\n"));
 }
 
+/// The last request's end.
+class LastEnd : public RequestObserver {
+ public:
+  void ended(const RequestRecord& record, const HttpReply&) noexcept override { delivery.set_value(record.delivery); }
+  std::promise<Delivery> delivery;
+};
+
+// As a video's encoder does; both are held for a key, which the connection does not know before its handler does.
+TEST_F(ConnectionTest, AStreamYieldsForOtherMemoryThatItHoldsForItsKey) {
+  const ClientIdentity key{"key a", "key a"};
+  ByteBudget memory(60 << 20); // to be given back in 60 s: at 1 MiB a second
+  ByteLease held(memory, {key, "asked"}), wanted(memory, {{"b", "b"}, "2"});
+  ASSERT_TRUE(held.grow(60 << 20));
+  ASSERT_FALSE(wanted.grow(1));
+  LastEnd last;
+  context_.observer = &last;
+  context_.service = [&](const HttpRequest&) -> std::variant<RequestHandler, HttpReply> {
+    RequestHandler handler;
+    handler.answer = [&](const HttpRequest&, const std::function<bool()>&) {
+      HttpReply reply;
+      reply.contentType = "text/plain";
+      reply.client = key;
+      reply.memory = &memory;
+      reply.stream = [piece = std::string(1 << 16, 'x')](const BodySink& sink) -> std::shared_ptr<ReplyWait> {
+        while (sink(piece)) {
+        }
+        return nullptr;
+      };
+      return reply;
+    };
+    return handler;
+  };
+  const auto pending = enter();
+  ASSERT_TRUE(sendAll(client_.get(), "GET / HTTP/1.1\r\nHost: x\r\nX-Request-ID: asked\r\n\r\n", Pace{}));
+  auto ended = last.delivery.get_future();
+  ASSERT_EQ(ended.wait_for(20s), std::future_status::ready);
+  EXPECT_EQ(ended.get(), Delivery::othersWaited);
+}
+
 TEST_F(ConnectionTest, AReplyThatHasItsRoomNeedsNoOther) {
   context_.limits.replyRoom = 20ms;
   context_.service = [this](const HttpRequest&) {

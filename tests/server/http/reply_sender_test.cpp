@@ -45,7 +45,7 @@ std::size_t readUpTo(int fd, std::size_t count) {
 }
 
 ReplySender senderTo(const TcpPair& pair, const Pace& pace = {}, const StopSignal* cut = nullptr) {
-  return {pair.server.get(), TransferPace(pace, nullptr, {}), cut};
+  return {pair.server.get(), TransferPace(pace, {}, {}), cut};
 }
 
 TEST(ReplySender, AReaderWhomTheKernelRunsAheadOfIsNotSlow) {
@@ -122,7 +122,7 @@ TEST(ReplySender, IsEndedWhereOthersWait) {
   std::jthread waiting([&](const std::stop_token& stop) {
     while (!stop.stop_requested()) other.growBy(1, Clock::now() + 50ms);
   });
-  ReplySender sender(pair.server.get(), TransferPace({1h, 1h, 1}, &budget, holder));
+  ReplySender sender(pair.server.get(), TransferPace({1h, 1h, 1}, {&budget}, holder));
   EXPECT_EQ(sender.send(std::string(32 << 20, 'x')), Delivery::othersWaited);
 }
 

@@ -31,7 +31,7 @@ std::optional<Ended> endOf(TransferPace& pace, Clock::time_point start, std::siz
 
 std::optional<Ended> alone(std::size_t bytes, Clock::duration step, Clock::duration time = 30min) {
   const auto start = Clock::now();
-  TransferPace pace({}, nullptr, {}, start);
+  TransferPace pace({}, {}, {}, start);
   return endOf(pace, start, bytes, step, time);
 }
 
@@ -59,7 +59,7 @@ TEST(TransferPace, OneThatDoesNotBeginIsEndedSoon) {
 
 TEST(TransferPace, ABurstEarnsTwentySeconds) {
   const auto start = Clock::now();
-  TransferPace pace({}, nullptr, {}, start);
+  TransferPace pace({}, {}, {}, start);
   pace.moved(std::size_t{1} << 40, start);
   const auto ended = endOf(pace, start, 1, 500ms, 1h);
   ASSERT_TRUE(ended);
@@ -68,7 +68,7 @@ TEST(TransferPace, ABurstEarnsTwentySeconds) {
 
 TEST(TransferPace, WhatThereIsNothingToMoveInCostsNoTime) {
   const auto start = Clock::now();
-  TransferPace pace({}, nullptr, {}, start);
+  TransferPace pace({}, {}, {}, start);
   pace.paused(1h);
   EXPECT_EQ(pace.state(start + 1h + 4s), TransferState::goesOn);
   EXPECT_EQ(pace.state(start + 1h + 6s), TransferState::tooSlow);
@@ -81,11 +81,12 @@ class WaitedFor : public ::testing::Test {
 
   std::optional<Ended> end(std::size_t bytesPerSecond, Clock::duration time) {
     const auto start = Clock::now();
-    TransferPace pace({}, &budget_, holder_, start);
+    TransferPace pace({}, {&elsewhere_, &budget_}, holder_, start);
     return endOf(pace, start, bytesPerSecond / 10, 100ms, time);
   }
 
   const Holder holder_{{"a", "a"}, "1"};
+  ByteBudget elsewhere_{kBytes}; ///< of which nothing is held: what a reply's other memory may be
   ByteBudget budget_{kBytes};
   ByteLease lease_{budget_, holder_};
   ByteLease other_{budget_, {{"b", "b"}, "2"}};

@@ -83,6 +83,56 @@ TEST_P(JobSharesTest, WhatHasNoRoomIsRefusedOrFails) {
   EXPECT_EQ(progress("after").state, JobState::done) << "what was removed made room";
 }
 
+/// Of `queue`: a job of `client` whose one picture has so many bytes. What became of it.
+JobState drawOf(JobQueue& queue, const std::string& id, const ClientIdentity& client, std::size_t bytes) {
+  NewJob job = jobOfFrames(id, 1);
+  job.client = client;
+  EXPECT_TRUE(queue.put(job)) << id;
+  const auto turn = queue.take(std::chrono::seconds(5));
+  EXPECT_TRUE(turn && *turn) << id;
+  EXPECT_TRUE(queue.finish(**turn, drawnFrame(std::string(bytes, 'p')))) << id;
+  return (*queue.find(id))->state;
+}
+
+TEST_P(JobSharesTest, OneJobMayHaveAllBytesAndAllOfAClientThreeQuarters) {
+  open({.bytes = 1'000});
+  const ClientIdentity ann{"ann", "ann"}, bob{"bob", "bob"};
+  EXPECT_EQ(drawOf(*queue_, "alone", ann, 990), JobState::done);
+  EXPECT_TRUE(*queue_->remove("alone"));
+  EXPECT_EQ(drawOf(*queue_, "first", ann, 500), JobState::done);
+  EXPECT_EQ(drawOf(*queue_, "second", ann, 300), JobState::failed) << "with the first it has more than 750";
+  EXPECT_EQ(progress("second").problems.at(0).code, ProblemCode::insufficientStorage);
+  EXPECT_EQ(progress("second").problems.at(0).limit, "1000 bytes");
+  EXPECT_NE(progress("second").problems.at(0).detail.find("its share"), std::string::npos);
+  EXPECT_EQ(drawOf(*queue_, "of another", bob, 300), JobState::done) << "there was room for those who have none";
+  EXPECT_TRUE(*queue_->remove("first"));
+  EXPECT_EQ(drawOf(*queue_, "third", ann, 300), JobState::done) << "what was removed is free again";
+}
+
+TEST_P(JobSharesTest, ANewJobIsRefusedWhereItsClientHasItsShareOfBytes) {
+  open({.bytes = 1'000});
+  EXPECT_EQ(drawOf(*queue_, "large", {"ann", "ann"}, 740), JobState::done);
+  NewJob next = jobOfFrames("next", 1);
+  next.request = std::string(20, ' ');
+  const auto refused = queue_->put(next);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.problems()[0].code, ProblemCode::busy);
+  EXPECT_EQ(refused.problems()[0].limit, "1000 bytes");
+  next.client = {"bob", "bob"};
+  put(next);
+}
+
+TEST_P(JobSharesTest, TheNetworksOfOneSiteHaveOneShareOfBytes) {
+  open({.bytes = 1'000});
+  const auto ofSite = [](int i) -> ClientIdentity {
+    return {"2001:db8:0:" + std::to_string(i) + "::/64", "2001:db8::/48"};
+  };
+  EXPECT_EQ(drawOf(*queue_, "a", ofSite(1), 400), JobState::done);
+  EXPECT_EQ(drawOf(*queue_, "b", ofSite(2), 300), JobState::done);
+  EXPECT_EQ(drawOf(*queue_, "c", ofSite(3), 100), JobState::failed);
+  EXPECT_EQ(drawOf(*queue_, "d", {"192.0.2.9", "192.0.2.9"}, 100), JobState::done);
+}
+
 INSTANTIATE_TEST_SUITE_P(Every, JobSharesTest, ::testing::ValuesIn(testedQueues()),
                          [](const auto& tested) { return tested.param.name; });
 

@@ -59,14 +59,35 @@ RC_GTEST_PROP(OptionText, ANumberIsWithinTheRangeOrTheTextStays, (const std::str
   RC_ASSERT(kSize.range.contains(static_cast<double>(number)));
 }
 
-TEST(OptionText, APasswordIsInNoFault) {
+TEST(ServeInputs, APasswordIsInNoFault) {
   for (const char* text :
        {"redis://:secret@", "redis://u:secret@h:99999", "redis://:secret%@h", "http://u:secret@h/"}) {
-    for (const std::string& fault : {storeFault(text), redisFault(text)}) {
-      EXPECT_FALSE(fault.empty()) << text;
-      EXPECT_EQ(fault.find("secret"), std::string::npos) << fault;
-    }
+    ServeOptions options;
+    options.store = options.jobsAddress = text;
+    std::vector<OptionFault> faults;
+    const ServeInputs inputs = readAddresses(options, faults);
+    EXPECT_FALSE(inputs.store || inputs.jobs) << text;
+    ASSERT_EQ(faults.size(), 2u) << text;
+    for (const OptionFault& fault : faults) EXPECT_EQ(fault.detail.find("secret"), std::string::npos) << fault.detail;
   }
+}
+
+TEST(ServeInputs, AddressesAreReadOnceAndEachFaultNamesItsOption) {
+  ServeOptions options;
+  options.trustedProxies = {"10.0.0.0/8", "foo", "10.0.0.1/8"};
+  options.store = "redis://scenes.example:6400/3";
+  options.jobsAddress = "/a/directory";
+  std::vector<OptionFault> faults;
+  const ServeInputs inputs = readAddresses(options, faults);
+  EXPECT_EQ(inputs.store->host, "scenes.example");
+  EXPECT_EQ(inputs.store->database, 3);
+  EXPECT_FALSE(inputs.jobs);
+  ASSERT_EQ(faults.size(), 3u);
+  EXPECT_TRUE(faults[0].detail.starts_with("--trusted-proxies: foo: ")) << faults[0].detail;
+  EXPECT_TRUE(faults[1].detail.starts_with("--trusted-proxies: 10.0.0.1/8: ")) << faults[1].detail;
+  EXPECT_TRUE(faults[2].detail.starts_with("--jobs: ")) << faults[2].detail;
+  EXPECT_EQ(readAddresses({}, faults = {}).trustedProxies.size(), 0u);
+  EXPECT_TRUE(faults.empty());
 }
 
 TEST(ServeInputs, TheDefaultsOfNoMachineContradictEachOther) {

@@ -1,6 +1,7 @@
 #include "server/system/fair_shares.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 namespace gnomon {
 namespace {
@@ -47,6 +48,31 @@ TEST(FairShares, AnOperatorsBoundReplacesTheShare) {
   EXPECT_EQ(takenBy(shares, alone("proxy")), 8u);
   FairShares few(8, 2);
   EXPECT_EQ(takenBy(few, alone("a")), 2u);
+}
+
+TEST(FairShares, WhatHasNoneMayTakeAllThatIsLeft) {
+  EXPECT_TRUE(mayTake({.capacity = 100}, 100, Share::half));
+  EXPECT_FALSE(mayTake({.capacity = 100}, 101, Share::half));
+  EXPECT_TRUE(mayTake({.capacity = 100, .taken = 90}, 10, Share::threeQuarters));
+  EXPECT_FALSE(mayTake({.capacity = 100, .taken = 90}, 11, Share::threeQuarters));
+  EXPECT_FALSE(mayTake({.capacity = 100, .taken = 120}, 1, Share::half)) << "a capacity that has become less";
+}
+
+RC_GTEST_PROP(FairShares, AClientsShareIsOfWhatOthersLeave, ()) {
+  const std::uint64_t capacity = *rc::gen::inRange(1, 1'000), taken = *rc::gen::inRange<std::uint64_t>(0, capacity + 1);
+  const std::uint64_t bySite = *rc::gen::inRange<std::uint64_t>(0, taken + 1);
+  const std::uint64_t byClient = *rc::gen::inRange<std::uint64_t>(0, bySite + 1);
+  const std::uint64_t more = *rc::gen::inRange<std::uint64_t>(1, capacity + 1);
+  const SharedUse use{capacity, taken, byClient, bySite};
+  if (!mayTake(use, more, Share::half)) {
+    RC_ASSERT(more + 1 > capacity || !mayTake(use, more + 1, Share::half)); // nor may it take one more
+    return;
+  }
+  RC_ASSERT(taken + more <= capacity);
+  RC_ASSERT(byClient == 0 || 2 * (byClient + more) <= capacity - (taken - byClient));
+  RC_ASSERT(bySite == 0 || 4 * (bySite + more) <= 3 * (capacity - (taken - bySite)));
+  RC_ASSERT(mayTake(use, more, Share::threeQuarters));
+  RC_ASSERT(mayTake({capacity, taken - bySite, 0, 0}, more, Share::half)); // were all of its own given back
 }
 
 TEST(FairShares, APlaceIsGivenBackWithItsLastCopy) {

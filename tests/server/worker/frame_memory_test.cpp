@@ -127,6 +127,22 @@ TEST(Orders, WithoutMemoryTheRequestIsTooLargeOnlyWhereItWasAlone) {
   EXPECT_EQ(noMemoryFor(third).code, ProblemCode::unavailable) << "another was there before";
 }
 
+TEST(Orders, ASceneWithoutMemoryIsTooLargeOnlyWhereItWasLoadedAlone) {
+  const Answer lacking{.problems = {noMemory("/images/3", "There is not enough memory for this image.")}};
+  const Answer passed{.problems = {{ProblemCode::tooLarge, "/nodes", "Too many nodes.", "1..65536"}}};
+  OrdersAtWork orders;
+  {
+    const Presence own(orders);
+    EXPECT_EQ(judgedAnswer(lacking, own).problems.front().pointer, "/images/3") << "it says what was too large";
+    EXPECT_EQ(judgedAnswer(lacking, own).problems.front().code, ProblemCode::tooLarge);
+  }
+  const Presence other(orders);
+  const Presence own(orders);
+  EXPECT_EQ(judgedAnswer(lacking, own).problems.front().code, ProblemCode::unavailable);
+  EXPECT_EQ(judgedAnswer(passed, own).problems.front().code, ProblemCode::tooLarge) << "a limit stays one";
+  EXPECT_TRUE(judgedAnswer({.body = "{}"}, own).problems.empty());
+}
+
 TEST(QualityChoices, RemembersTheLastThatWasUsed) {
   QualityChoices choices;
   QualityChoice choice;

@@ -113,6 +113,46 @@ TEST_F(SceneFile, HoldsEveryFileAgainstTheLimitTogether) {
   EXPECT_FALSE(readSceneFile(root_ / "model" / "a.gltf", {}, {}, limits));
 }
 
+FrameSpec litBy(const std::string& file) {
+  FrameSpec spec;
+  spec.environment.file = file;
+  return spec;
+}
+
+TEST_F(SceneFile, AnEnvironmentOfAFlagComesFromAnywhereAndOneOfARequestFromTheModelsFolder) {
+  write("model/a.glb", "glTF");
+  write("sky.hdr", "elsewhere");
+  const fs::path model = root_ / "model" / "a.glb", elsewhere = root_ / "sky.hdr";
+  const auto bundle = readSceneFile(model, {}, requestFiles(litBy("sky.hdr"), elsewhere.string()));
+  ASSERT_TRUE(bundle);
+  EXPECT_EQ(bundle->files, (std::map<std::string, Bytes>{{"sky.hdr", bytesOf("elsewhere")}}));
+  const auto missing = readSceneFile(model, {}, requestFiles(litBy("sky.hdr"), std::nullopt));
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.problems().front().pointer, (root_ / "model/sky.hdr").string());
+  write("model/sky.hdr", "beside");
+  EXPECT_EQ(readSceneFile(model, {}, requestFiles(litBy("sky.hdr"), std::nullopt))->files.at("sky.hdr"),
+            bytesOf("beside"));
+  const auto outside = readSceneFile(model, {}, requestFiles(litBy("../sky.hdr"), std::nullopt));
+  ASSERT_FALSE(outside);
+  EXPECT_EQ(outside.problems().front().pointer, "/environment/file");
+  EXPECT_EQ(placesOf(requestFiles(litBy("sky.hdr"), elsewhere.string()), "x"), std::vector<fs::path>{elsewhere});
+  EXPECT_EQ(placesOf(requestFiles(litBy("sky.hdr"), "sky"), "x"), std::vector<fs::path>{"x/sky.hdr"});
+}
+
+TEST_F(SceneFile, AnEnvironmentThatHasTheNameOfAnotherFileOfTheModelIsRefused) {
+  write("model/a.gltf", R"({"images": [{"uri": "sky.exr"}]})");
+  write("model/sky.exr", "the model's");
+  write("sky.exr", "another");
+  const fs::path model = root_ / "model" / "a.gltf";
+  const auto read = [&](const fs::path& file) {
+    return readSceneFile(model, {}, requestFiles(litBy("sky.exr"), file.string()));
+  };
+  EXPECT_EQ(read(root_ / "model/sky.exr")->files.at("sky.exr"), bytesOf("the model's"));
+  const auto refused = read(root_ / "sky.exr");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.problems().front().pointer, "/environment/file");
+}
+
 TEST_F(SceneFile, AModelWithoutFilesIsItsBytes) {
   write("model/a.glb", "glTF and whatever comes");
   const auto bundle = readSceneFile(root_ / "model" / "a.glb");

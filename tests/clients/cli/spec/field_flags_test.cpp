@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -58,6 +59,34 @@ TEST(FieldFlags, BadTextsAndPlacesAreProblems) {
     EXPECT_FALSE(fieldValue(flagOf("--eye"), text)) << text;
   }
   EXPECT_FALSE(fieldValue(flagOf("--fov"), "wide"));
+}
+
+/// The fields that a command line gives, by their flags; what is wrong where it is refused.
+std::map<std::string, std::string> fieldsOf(std::vector<std::string> words) {
+  CLI::App command;
+  SpecArguments arguments;
+  std::string scene;
+  command.add_option("scene", scene)->required();
+  addPictureFlags(command, arguments);
+  std::reverse(words.begin(), words.end()); // as CLI11 takes them
+  try {
+    command.parse(std::move(words));
+  } catch (const CLI::ParseError& error) {
+    return {{"wrong", error.what()}};
+  }
+  arguments.fields["scene"] = scene;
+  return arguments.fields;
+}
+
+TEST(FieldFlags, ASwitchTakesAValueBehindAnEqualsSignAlone) {
+  using Fields = std::map<std::string, std::string>;
+  EXPECT_EQ(fieldsOf({"--ground", "a.glb"}), (Fields{{"scene", "a.glb"}, {"--ground", "catcher"}}));
+  EXPECT_EQ(fieldsOf({"--ground=surface", "--sky-shadows", "a.glb", "--transparent"}),
+            (Fields{{"scene", "a.glb"}, {"--ground", "surface"}, {"--sky-shadows", "rays"}, {"--transparent", "0"}}));
+  EXPECT_THAT(fieldsOf({"a.glb", "--transparent=half"})["wrong"], HasSubstr("a number"));
+  EXPECT_EQ(with("{}", "--ground", "catcher"), nlohmann::json::parse(R"({"ground": {"mode": "catcher"}})"));
+  EXPECT_EQ(with(R"({"background": {"color": [1, 0, 0]}})", "--transparent", "0"),
+            nlohmann::json::parse(R"({"background": {"color": [1, 0, 0], "alpha": 0.0}})"));
 }
 
 /// The file of the request that a command line names; what is wrong with the line where it names none or two.

@@ -75,6 +75,44 @@ TEST(SpecArguments, SunIsAddedWhereNoLightIsDirectional) {
   EXPECT_EQ(spec.lights->at(1).type, LightType::directional);
 }
 
+TEST(SpecArguments, AnEnvironmentTakesThePlaceOfAnotherAndKeepsHowItIsShown) {
+  SpecArguments flags;
+  flags.environment = "lights/studio.hdr";
+  const FrameSpec file = resolved(R"({"environment": {"sky": {"turbidity": 4}, "background": "blurred"}})", flags);
+  EXPECT_EQ(file.environment.file, "studio.hdr");
+  EXPECT_FALSE(file.environment.sky);
+  EXPECT_EQ(file.environment.background, EnvironmentBackground::blurred);
+  flags.environment = "sky";
+  const FrameSpec sky = resolved(R"({"environment": {"file": "a.hdr", "rotationDegrees": 30}})", flags);
+  EXPECT_FALSE(sky.environment.file);
+  ASSERT_TRUE(sky.environment.sky);
+  EXPECT_EQ(sky.environment.rotationDegrees, 30);
+  EXPECT_EQ(resolved(R"({"environment": {"sky": {"turbidity": 4}}})", flags).environment.sky->turbidity, 4);
+  flags.environment = "studio";
+  const FrameSpec studio = resolved(R"({"environment": {"file": "a.hdr", "intensity": 2}})", flags);
+  EXPECT_FALSE(studio.environment.file || studio.environment.sky);
+  EXPECT_EQ(studio.environment.intensity, 2);
+}
+
+TEST(SpecArguments, TheSunIsThatOfTheSkyWhereThereIsOne) {
+  SpecArguments flags;
+  flags.sun = {90, 10};
+  flags.environment = "sky";
+  const ResolvedSpec sky = resolveSpec("{}", flags);
+  ASSERT_TRUE(sky.spec);
+  EXPECT_EQ(sky.spec->environment.sky->sun.elevationDegrees, 10);
+  EXPECT_FALSE(sky.spec->lights);
+  EXPECT_EQ(sky.origins.at("/environment/sky/sun"), "--sun");
+  EXPECT_EQ(sky.origins.at("/environment/sky"), "--environment");
+}
+
+TEST(SpecArguments, AnEnvironmentIsAPictureOrAWord) {
+  for (const char* text : {"a.hdr", "/b/c.EXR", "sky", "studio"}) EXPECT_EQ(checkEnvironment(text), "") << text;
+  for (const char* text : {"", "a.png", "skies", "hdr", "sky.glb"}) {
+    EXPECT_THAT(checkEnvironment(text), HasSubstr(".hdr or .exr")) << text;
+  }
+}
+
 TEST(SpecArguments, CameraIsAnIndexWhenItIsANumber) {
   SpecArguments flags;
   flags.camera = "12";

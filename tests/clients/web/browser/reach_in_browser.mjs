@@ -182,6 +182,36 @@ test('another scene begins with nothing of the one before', async () => {
   await close();
 });
 
+// A Radiance picture of one color: 16 x 8 texels of mantissas and a common exponent.
+const red = Buffer.concat([Buffer.from('#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\n'), Buffer.alloc(4 * 128, Buffer.from([200, 20, 20, 129]))]);
+
+test('the first picture of all stands on a ground, and one that a link names is as the link says', async () => {
+  for (const [address, expected] of [[server.origin, true], [atScene(), false]]) {
+    const { page, complaints, close } = await openPage(browser, address, kDesktop);
+    await page.waitForFunction(() => location.hash.includes('camera.'));
+    assert.equal((await hash(page)).includes('ground.mode=catcher'), expected);
+    assert.deepEqual(complaints, []);
+    await close();
+  }
+});
+
+test('a picture of all directions that comes with a model lights it, and so does one that is added', async () => {
+  const { page, complaints, close } = await openPage(browser, atScene(), kDesktop);
+  const model = { name: 'moving.gltf', mimeType: 'model/gltf+json', buffer: movingScene };
+  const picture = (name) => ({ name, mimeType: 'image/vnd.radiance', buffer: red });
+  const source = page.locator('.field', { has: page.locator('.label', { hasText: /^Source$/ }) });
+  await change(page, () => page.setInputFiles('#files', [model, picture('red.hdr')]));
+  await page.waitForFunction(() => location.hash.includes('environment.file=red.hdr'));
+  await change(page, () => page.setInputFiles('#files', [picture('other.hdr')]));
+  await page.waitForFunction(() => location.hash.includes('environment.file=other.hdr'));
+  await change(page, () => source.locator('label', { hasText: /^Sky$/ }).click());
+  assert.match(await hash(page), /environment\.sky\.sun\.elevationDegrees/);
+  await change(page, () => source.locator('label', { hasText: /^Studio$/ }).click());
+  assert.doesNotMatch(await hash(page), /environment/);
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
 test('a scene as a whole is framed by the server, and turned from there', async () => {
   const { page, complaints, close } = await openPage(browser, atScene(), kDesktop);
   await upload(page);

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+
+#include "protocol/base/bytes.h"
+#include "protocol/base/lru.h"
+#include "protocol/base/result.h"
+#include "protocol/spec/environment_options.h"
+#include "renderer/environment/environment.h"
+
+namespace gnomon {
+
+/// Environments of earlier frames. The least recently used are dropped first once all take more than a budget, and
+/// those of files that are in use nowhere else. For one thread.
+class EnvironmentCache {
+ public:
+  explicit EnvironmentCache(std::size_t budgetBytes = std::size_t{1} << 28) : budgetBytes_(budgetBytes) {}
+
+  /// Read and made now if need be; problems have no pointer. The newest stays, whatever its size.
+  Result<std::shared_ptr<const Environment>> get(const std::shared_ptr<const Bytes>& file, SunExtraction extraction);
+
+  /// Computed now if need be. `sky`: its sun is settled.
+  std::shared_ptr<const Environment> get(const Sky& sky);
+
+ private:
+  struct SkyEntry {
+    Sky sky;
+    std::shared_ptr<const Environment> environment;
+  };
+  struct Entry {
+    std::weak_ptr<const Bytes> file;
+    SunExtraction extraction;
+    std::shared_ptr<const Environment> environment;
+  };
+
+  std::size_t budgetBytes_;
+  LruList<Entry> entries_;
+  LruList<SkyEntry> skies_;
+};
+
+} // namespace gnomon

@@ -1,0 +1,26 @@
+#include "renderer/rays/pixel_places.h"
+
+#include <bit>
+
+#include "renderer/rays/light_source.h"
+
+namespace gnomon {
+
+PixelPlaces::PixelPlaces(std::uint32_t rays) {
+  const std::uint32_t own = std::bit_ceil(rays);
+  for (std::uint32_t ray = 0; ray < rays; ++ray) {
+    const SquarePlace place = sequencePlace(ray);
+    places_.push_back({place.x, place.y});
+  }
+  for (std::uint32_t i = 0; i < shifts_.size(); ++i) {
+    const std::uint32_t x = i & 7;
+    const std::uint32_t y = i >> 3;
+    std::uint32_t pixel = 0;
+    for (std::uint32_t bit = 0; bit < 3; ++bit)
+      pixel |= ((x ^ y) >> bit & 1u) << 2 * bit | (y >> bit & 1u) << (2 * bit + 1);
+    const SquarePlace place = sequencePlace(pixel * own);
+    shifts_[i] = {place.x ^ 0x0c3375c9u, place.y ^ 0xc19953ddu};
+  }
+}
+
+} // namespace gnomon

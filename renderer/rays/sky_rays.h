@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "renderer/rays/trace.h"
+
+/// Rays to light that comes from everywhere: what the scene hides of it.
+namespace gnomon {
+
+/// What drawn places are to such light.
+struct SkyPlaces {
+  static constexpr std::size_t kCount = DrawnPlaces::kCount;
+  alignas(64) float normal[3][kCount]; ///< of the triangle, on the eye's side; unit length
+  float shading[3][kCount];            ///< by which a picture shades, without a normal map; unit length
+  float toEye[3][kCount];              ///< unit length
+  float roughness[kCount];             ///< perceptual, without a texture
+  int receives[kCount];                ///< -1: a surface that shows shadows; else 0, and the others mean nothing
+};
+
+/// A direction for each of them.
+struct SkyWays {
+  alignas(64) float toward[3][SkyPlaces::kCount]; ///< unit length
+  int asked[SkyPlaces::kCount];                   ///< -1: a ray is sent; else 0
+};
+
+/// What throws shadows of such light: all nodes that cast shadows, whatever their layers. Made once for a frame; any
+/// thread. What the input refers to outlives it.
+class TracedSky {
+ public:
+  explicit TracedSky(const TraceInput& input);
+  ~TracedSky();
+
+  struct State; ///< for the files of this folder
+  const State& state() const { return *state_; }
+
+ private:
+  std::unique_ptr<const State> state_;
+};
+
+/// Sixteen drawn places, and rays from there. One thread at a time.
+class SkyPacket {
+ public:
+  explicit SkyPacket(const TracedSky& sky); ///< which outlives it
+  ~SkyPacket();
+
+  void start(const DrawnPlaces& places);
+
+  /// REQUIRES: start.
+  const SkyPlaces& places() const { return places_; }
+
+  /// The share of the light that comes along each way past the casters, as they let a light's through; 0 where none is
+  /// asked for. REQUIRES: each way that is asked for leads off the triangle's plane, to the eye's side.
+  std::array<float, SkyPlaces::kCount> through(const SkyWays& ways);
+
+ private:
+  struct Starts;
+  const TracedSky& sky_;
+  SkyPlaces places_;
+  std::unique_ptr<Starts> starts_;
+};
+
+} // namespace gnomon
