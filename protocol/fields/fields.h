@@ -147,6 +147,13 @@ constexpr Rows<Owner, Members...> replyRows(std::string_view name, std::string_v
   return result;
 }
 
+/// The rows of a struct that is only ever passed between the server's own processes: no reader needs a sentence for
+/// what the struct's own comments say.
+template <auto... kMembers>
+constexpr auto plainRows(std::string_view name) {
+  return rows(name, "", field<kMembers>("")...);
+}
+
 /// A described struct has a specialisation of this.
 template <class T>
 inline constexpr std::nullptr_t kRows = nullptr;

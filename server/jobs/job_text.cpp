@@ -3,25 +3,20 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "protocol/fields/field_codec.h"
 #include "protocol/fields/type_tables.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/json/problem_rows.h"
 #include "protocol/sequence/sequence.h"
 #include "server/wire/messages.h"
+#include "server/wire/read_value.h"
 #include "server/wire/sequence_news.h"
 
 namespace gnomon {
 
 template <>
-inline constexpr auto kRows<FrameNote> = rows("FrameNote", "All about a drawn frame but its pictures.",
-                                              field<&FrameNote::contentKey>("What the pictures depend on."),
-                                              field<&FrameNote::carried>("Of this frame alone."),
-                                              field<&FrameNote::warnings>("Of its report."),
-                                              field<&FrameNote::stages>("Time of each stage.",
-                                                                        {.unit = "milliseconds"}),
-                                              field<&FrameNote::milliseconds>("Time of all.", {.unit = "milliseconds"}),
-                                              field<&FrameNote::pictures>("In the order of their bytes."));
+inline constexpr auto kRows<FrameNote> =
+    plainRows<&FrameNote::contentKey, &FrameNote::carried, &FrameNote::warnings, &FrameNote::stages,
+              &FrameNote::milliseconds, &FrameNote::pictures>("FrameNote");
 
 namespace {
 
@@ -34,20 +29,10 @@ bool isContentKey(std::string_view key) {
   return key.size() == 64 && key.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
-template <class Value>
-std::optional<Value> readValue(std::string_view text) {
-  ProblemList problems;
-  Value value;
-  const std::optional<JsonNode> root = readJson(text, problems);
-  if (!root || !decodeValue(*root, Notes{}, Place(), problems, value) || !problems.empty()) return std::nullopt;
-  return value;
-}
-
 } // namespace
 
 template <>
-inline constexpr auto kRows<ProblemsText> = rows("ProblemsText", "Problems.",
-                                                 field<&ProblemsText::problems>("All of them."));
+inline constexpr auto kRows<ProblemsText> = plainRows<&ProblemsText::problems>("ProblemsText");
 
 template const ValueType& typeOf<FrameNote>();
 template const ValueType& typeOf<ProblemsText>();

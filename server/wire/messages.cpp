@@ -6,10 +6,9 @@
 
 #include "protocol/base/scene_bundle.h"
 #include "protocol/cost/frame_cost.h"
-#include "protocol/fields/field_codec.h"
 #include "protocol/fields/type_tables.h"
-#include "protocol/json/json_codec.h"
 #include "server/wire/message_rows.h"
+#include "server/wire/read_value.h"
 
 namespace gnomon {
 
@@ -21,14 +20,10 @@ namespace {
 /// The message, where its text is that of exactly one of its kinds.
 template <class Message>
 std::optional<Message> readMessage(std::string_view text) {
-  ProblemList problems;
-  Message message;
-  const std::optional<JsonNode> root = readJson(text, problems);
-  if (!root || !decodeValue(*root, Notes{}, Place(), problems, message) || !problems.empty()) return std::nullopt;
+  auto message = readValue<Message>(text);
   int kinds = 0;
-  forEachField<Message>([&](const auto& row) { kinds += (message.*row.member).has_value() ? 1 : 0; });
-  if (kinds != 1) return std::nullopt;
-  return message;
+  forEachField<Message>([&](const auto& row) { kinds += message && ((*message).*row.member).has_value() ? 1 : 0; });
+  return kinds == 1 ? std::move(message) : std::nullopt;
 }
 
 bool isTime(double milliseconds) {

@@ -44,21 +44,13 @@ std::optional<SequenceNews> readSequenceNews(std::string_view text);
 
 // The rows of these; see fields.h.
 template <>
-inline constexpr auto kRows<DrawnNews> = rows("DrawnNews", "A frame is drawn.",
-                                              field<&DrawnNews::carried>("Of this frame alone."),
-                                              field<&DrawnNews::warnings>("Of its report."));
+inline constexpr auto kRows<DrawnNews> = plainRows<&DrawnNews::carried, &DrawnNews::warnings>("DrawnNews");
 
 template <>
-inline constexpr auto kRows<PictureNews> = rows("PictureNews", "A picture among the bytes of the result.",
-                                                field<&PictureNews::view>("Its view."),
-                                                field<&PictureNews::contentType>("Its media type."),
-                                                field<&PictureNews::bytes>("Its size.", {.unit = "bytes"}),
-                                                field<&PictureNews::width>("Of a raw picture.", {.unit = "pixels"}),
-                                                field<&PictureNews::height>("Of a raw picture.", {.unit = "pixels"}));
+inline constexpr auto kRows<PictureNews> = plainRows<&PictureNews::view, &PictureNews::contentType, &PictureNews::bytes,
+                                                     &PictureNews::width, &PictureNews::height>("PictureNews");
 
 template <>
-inline constexpr auto kRows<SequenceNews> = rows("SequenceNews", "How far a frame of a sequence is.",
-                                                 field<&SequenceNews::drawn>("It is drawn."),
-                                                 field<&SequenceNews::pictures>("Its pictures."));
+inline constexpr auto kRows<SequenceNews> = plainRows<&SequenceNews::drawn, &SequenceNews::pictures>("SequenceNews");
 
 } // namespace gnomon
