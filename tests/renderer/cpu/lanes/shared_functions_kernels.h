@@ -11,12 +11,13 @@ inline constexpr std::size_t kSharedFunctionOutputs = 3;
 /// The cases of shared_functions_cases.h by lanes, in `sharedFunctionNames`' order. `rows`: a multiple of 16.
 void sharedFunctionByLanes(std::size_t which, std::size_t rows, const float* in, float* out);
 
-inline constexpr std::array sharedFunctionNames{"reflected", "ambient", "directional", "spot",       "point",   "tone",
-                                                "heat",      "glossy",  "octahedral",  "by tangent", "by steps"};
+inline constexpr std::array sharedFunctionNames{"reflected", "ambient", "directional", "spot",       "point",
+                                                "tone",      "heat",    "glossy",      "octahedral", "by tangent",
+                                                "by steps",  "neutral", "agx"};
 
 /// The cases in that order, as a list of what they are made of.
 #define GNOMON_SHARED_FUNCTION_CASES                                                                                   \
   Reflected, Ambient, Arriving<GNOMON_DIRECTIONAL>, Arriving<GNOMON_SPOT>, Arriving<GNOMON_POINT>, Tone, Heat, Glossy, \
-      Octahedral, ByTangent, BySteps
+      Octahedral, ByTangent, BySteps, Mapped<GNOMON_TONE_NEUTRAL>, Mapped<GNOMON_TONE_AGX>
 
 } // namespace gnomon::cpu
