@@ -68,6 +68,15 @@ struct Caught {
   }
 };
 
+template <int tone>
+struct Mapped {
+  template <class Columns>
+  static vec3 of(const Columns& in) {
+    const Real brightness = exp2(in.one(3) * 10.0f);
+    return toneMapped((in.three(0) * 0.5f + vec3(0.5f)) * brightness, tone);
+  }
+};
+
 struct Heat {
   template <class Columns>
   static vec3 of(const Columns& in) {
