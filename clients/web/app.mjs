@@ -81,7 +81,7 @@ async function show({ report, images, roundTripMs, asked }, draft) {
   const warnings = report.warnings.filter((text) => !store.state.summary.warnings.includes(text));
   showReport(byId('report'), { ...report, warnings });
   const hasReport = report.lights.some(({ tiles, note, lightMap }) => tiles.length || note || lightMap);
-  byId('report-section').hidden = !hasReport && !report.volumes.length && !warnings.length;
+  byId('report-section').hidden = !hasReport && !report.environment && !report.volumes.length && !warnings.length;
   shown = asked;
   store.update({ report, cameraShown: asked.spec.camera });
   announce(`The picture is sharp, after ${Math.round(roundTripMs)} milliseconds`);

@@ -1,6 +1,6 @@
 // Lights that are edited in place: new ones, other types, and which are in force. Pure.
 
-import { lightsWithSun } from './light_math.mjs';
+import { lightsOf, lightsWithSun } from './light_math.mjs';
 import { fitOrbit, orbitInForce } from './orbit_math.mjs';
 
 const rounded = (value) => Number(value.toPrecision(4));
@@ -8,7 +8,7 @@ const rounded = (value) => Number(value.toPrecision(4));
 // The user's own lights, else those of the last frame as if the user had chosen them.
 export function lightsInForce({ spec, report }) {
   if (spec.lights) return spec.lights;
-  return (report?.spec.lights ?? []).map(({ shadow, ...light }) => withoutIdleCones(light));
+  return (lightsOf(report) ?? []).map(({ shadow, ...light }) => withoutIdleCones(light));
 }
 
 // A new light of a type where it lights what the camera turns about, as strongly as a sun of 3 lux would.

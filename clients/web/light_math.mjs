@@ -13,6 +13,9 @@ export function sunAgainst([x, y, z]) {
   return { azimuthDegrees: tenth(azimuth) % 360, elevationDegrees: tenth(elevation) };
 }
 
+// The lights of a frame but for the sun of its environment, which is there without being asked for.
+export const lightsOf = (report) => (report?.environment?.sun ? report.spec.lights.slice(0, -1) : report?.spec.lights);
+
 const firstDirectional = (lights) => lights?.find(({ type }) => (type ?? 'directional') === 'directional');
 
 // The sun of the sky, else that of the user's own light, else that of the last frame's first directional light, else a pleasant one.

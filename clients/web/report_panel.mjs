@@ -4,7 +4,7 @@ import { count, element, short } from './dom.mjs';
 import { kTints } from './fields.mjs';
 
 export function showReport(node, report) {
-  node.replaceChildren(...report.lights.map(lightOf), ...report.volumes.map(volumeOf), ...report.warnings.map((text) => element('p', { class: 'warning' }, text)));
+  node.replaceChildren(...report.lights.map(lightOf), surroundingsOf(report), ...report.volumes.map(volumeOf), ...report.warnings.map((text) => element('p', { class: 'warning' }, text)));
 }
 
 function lightOf(light) {
@@ -36,6 +36,13 @@ function lightOf(light) {
     light.lightMap && element('p', { class: 'fact' }, mapOf(light.lightMap)),
     rows.length ? table : null,
   );
+}
+
+function surroundingsOf({ environment }) {
+  if (!environment) return '';
+  const { width, height, sun } = environment;
+  const sunsWords = sun ? `a sun of ${short(sun.lux)} lux, ${short(sun.angularDiameterDegrees)}° wide` : 'no sun in it';
+  return element('p', { class: 'fact' }, `Surroundings: ${width ? `${width} × ${height} texels` : 'a computed sky'}, ${sunsWords}.`);
 }
 
 function volumeOf({ voxels, values, reused, lightMilliseconds }) {

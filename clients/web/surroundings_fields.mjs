@@ -13,6 +13,9 @@ function chooseSource(kind, store) {
   store.update({ spec: kind === 'file' ? litByFile(state, first[0]) : kind === 'sky' ? litBySky(state) : litByStudio(state) });
 }
 
+// A report says that it was taken out, where its lights have it.
+const sunOfFile = (store) => (store.effective('environment.extractSun') === 'none' ? 'none' : 'auto');
+
 const hasSkyShadows = (store) => store.effective('environment.shadows') === 'rays';
 
 function chooseSkyShadows(on, store) {
@@ -40,7 +43,7 @@ export const kSurroundings = {
     { path: 'environment.intensity', label: 'Intensity', says: 'Its light is multiplied by this', slider: [0, 4, 0.01], absent: 1, needs: isLitBy('file') },
     { path: 'environment.intensity', label: 'Intensity', says: 'Its light, in lux, is multiplied by this', log: true, slider: [1e-6, 1e-3, 0.01], absent: 3e-5, needs: isLitBy('sky') },
     { path: 'environment.background', label: 'Behind', says: 'What is seen of it behind the scene', choices: [['none', 'Nothing'], ['environment', 'Sharp'], ['blurred', 'Blurred']], absent: 'none', needs: isLitBy('file', 'sky') },
-    { path: 'environment.extractSun', label: 'Its sun', says: 'What becomes of the brightest disc', choices: [['auto', 'A light', 'With a color, a size and a sharp shadow'], ['none', 'In the picture']], absent: 'auto', needs: isLitBy('file') },
+    { path: 'environment.extractSun', label: 'Its sun', says: 'What becomes of the brightest disc', choices: [['auto', 'A light', 'With a color, a size and a sharp shadow'], ['none', 'In the picture']], value: sunOfFile, needs: isLitBy('file') },
     { path: 'environment.shadows', label: 'Sky shadows', says: 'Rays find what the scene hides of this light', toggle: true, value: hasSkyShadows, choose: chooseSkyShadows },
     { path: 'environment.samples', label: 'Sky rays', says: 'A pixel, more where they disagree', choices: [[1, '1'], [2, '2'], [4, '4'], [8, '8'], [16, '16']], absent: 4, needs: hasSkyShadows },
     { path: 'ground', label: 'Ground', choices: [['none', 'None'], ['catcher', 'Shadow', 'A plane under the scene, invisible but for the shadows on it'], ['surface', 'Surface', 'A plane that is seen']], value: groundMode, choose: chooseGround, keeps: true },

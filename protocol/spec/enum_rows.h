@@ -178,6 +178,8 @@ inline constexpr std::array kSpellings<ExrPixelType>{
 template <>
 inline constexpr std::array kSpellings<ToneMapping>{
     spelling<ToneMapping::aces>("a film-like curve"),
+    spelling<ToneMapping::neutral>("Khronos PBR Neutral: colors of surfaces stay, highlights alone are compressed"),
+    spelling<ToneMapping::agx>("AgX: soft contrast, bright colors fade to white"),
     spelling<ToneMapping::none>("unchanged, clipped at 1"),
 };
 

@@ -39,7 +39,7 @@ enum class ExrPixelType { half, float_ };
 /// What the colors of an array are.
 enum class ArrayColors { srgb, linear };
 
-enum class ToneMapping { aces, none };
+enum class ToneMapping { aces, neutral, agx, none };
 
 /// What draws: a processor, or OpenGL.
 enum class DeviceChoice { auto_, cpu, gl };

@@ -138,7 +138,17 @@ int filterKind(const FilterKernel& filter) {
 
 int toneOf(ToneMapping toneMapping, bool encoded) {
   if (!encoded) return GNOMON_TONE_NONE;
-  return toneMapping == ToneMapping::aces ? GNOMON_TONE_ACES : GNOMON_TONE_CLIP;
+  switch (toneMapping) {
+    case ToneMapping::aces:
+      return GNOMON_TONE_ACES;
+    case ToneMapping::neutral:
+      return GNOMON_TONE_NEUTRAL;
+    case ToneMapping::agx:
+      return GNOMON_TONE_AGX;
+    case ToneMapping::none:
+      return GNOMON_TONE_CLIP;
+  }
+  return GNOMON_TONE_CLIP;
 }
 
 std::vector<shared::LightData> lightData(std::span<const LitLight> lights) {

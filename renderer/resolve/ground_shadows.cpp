@@ -79,7 +79,9 @@ bool addShadows(const Aabb& casters, const Light& light, double height, Aabb& sh
 
 std::optional<Aabb> shadowsOnGround(const FrameSpec& spec, const SceneView& view, std::span<const NodeSwitches> nodes,
                                     double height) {
-  if (!spec.volumes.empty() || spec.environment.shadows != EnvironmentShadows::none) return std::nullopt;
+  const EnvironmentOptions& around = spec.environment;
+  const bool mayHaveSun = around.file || around.sky; // which is found later
+  if (!spec.volumes.empty() || mayHaveSun || around.shadows != EnvironmentShadows::none) return std::nullopt;
   const std::vector<Light> lights = lightsOf(spec, lightsOf(view));
   Aabb shadow;
   double blur = 0;

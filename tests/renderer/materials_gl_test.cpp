@@ -6,6 +6,7 @@
 
 #include "renderer/image/picture_encode.h"
 #include "tests/renderer/frame_fixture.h"
+#include "tests/support/tone_curves.h"
 #include "tests/support/webp_builder.h"
 
 namespace gnomon {
@@ -50,6 +51,28 @@ std::array<int, 3> shownBytes(const ScenePtr& scene, Json settings) {
   const auto& pixels = std::get<std::vector<std::uint8_t>>(frame.images[0].image.pixels);
   const std::size_t middle = pixels.size() / 256 * (8 * 16 + 8);
   return {pixels[middle], pixels[middle + 1], pixels[middle + 2]};
+}
+
+TEST(MaterialFrames, WhatGlowsIsToneMappedAsPublished) {
+  for (const std::array<double, 3>& glow :
+       {std::array{0.9, 0.9, 0.9}, std::array{0.18, 0.18, 0.18}, std::array{0.7, 0.02, 0.01}, std::array{0.0, 0.0, 0.0},
+        std::array{0.6, 0.35, 0.25}, std::array{0.03, 0.5, 1.0}}) {
+    const ScenePtr scene =
+        testing::sceneOf(ground({{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 1}}},
+                                 {"emissiveFactor", glow}}));
+    for (const auto& [word, tone] : {std::pair{"neutral", ToneMapping::neutral}, std::pair{"agx", ToneMapping::agx},
+                                     std::pair{"none", ToneMapping::none}}) {
+      for (const double exposure : {0.0, 2.0}) {
+        const std::array<int, 3> shown =
+            shownBytes(scene, {{"toneMapping", word}, {"exposure", exposure}, {"ambient", {{"intensity", 0}}}});
+        const glm::dvec3 expected =
+            testing::publishedTone(tone, glm::dvec3(glow[0], glow[1], glow[2]) * std::exp2(exposure));
+        for (int i = 0; i < 3; ++i)
+          EXPECT_NEAR(shown[static_cast<std::size_t>(i)], testing::srgbByte(expected[i]), 1)
+              << word << " " << exposure << " " << glow[0] << " channel " << i;
+      }
+    }
+  }
 }
 
 TEST(MaterialFrames, WhatIsUnlitShowsItsColorAsItIsPastExposureAndToneMapping) {

@@ -188,7 +188,7 @@ json chosenSpec(Choices& choices, const ChosenScene& scene) {
   if (choices.oneIn(4)) spec["background"] = {{"alpha", choices.within(1, 0)}};
   if (choices.oneIn(4)) spec["ambient"] = {{"intensity", choices.within(0.3, 2)}};
   if (choices.oneIn(4)) spec["exposure"] = choices.within(0, 2);
-  if (choices.oneIn(4)) spec["toneMapping"] = "none";
+  if (choices.oneIn(4)) spec["toneMapping"] = choices.of({"neutral", "agx", "none"});
   return spec;
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <functional>
 #include <iostream>
 #include <string_view>
 
@@ -22,30 +21,6 @@ std::string viewNames() {
   std::string names;
   for (const Spelling& view : kSpellings<View>) (names += names.empty() ? "" : ", ") += view.name;
   return names;
-}
-
-/// A switch, which takes a value where that follows an =.
-CLI::Option* addBareFlag(CLI::App& command, const FieldFlag& field, const std::function<void(std::string)>& take) {
-  return command.add_flag(std::string(field.flag) + "{" + field.bare + "}")->description(field.says)->each(take);
-}
-
-/// `placements`: the other flags that place the camera.
-void addFieldFlags(CLI::App& command, SpecArguments& arguments, std::vector<CLI::Option*> placements) {
-  for (const FieldFlag& field : kFieldFlags) {
-    // `evaluate` has a --variant of its own: a variant of the frame.
-    const bool isTaken = command.get_option_no_throw(field.flag) != nullptr;
-    const auto take = [&arguments, &field](const std::string& text) {
-      const auto value = fieldValue(field, text);
-      if (!value) throw CLI::ValidationError(field.flag, value.problems().front().detail);
-      arguments.fields[field.flag] = text;
-    };
-    auto* option = field.bare != nullptr ? addBareFlag(command, field, take)
-                                         : command.add_option_function<std::string>(
-                                               isTaken ? "--material-variant" : field.flag, take, field.says);
-    option->type_name(field.typeName)->group("Picture");
-    if (field.replaces != kOtherPlacements) continue;
-    for (CLI::Option* placement : placements) option->excludes(placement);
-  }
 }
 
 /// The format that the output's name, or --format, asks for. Whoever asks is an option that was added after those.

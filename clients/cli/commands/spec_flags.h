@@ -12,7 +12,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+} // namespace CLI
 
 /// The flags that `render`, `plan` and others share. What they fill in outlives the command.
 namespace gnomon::cli {
@@ -32,6 +33,9 @@ void addSpecFlag(CLI::App& command, std::string& file, const std::string& more =
 
 /// The same file by its place behind the scene, as it was given before these commands had --spec.
 void addSpecArgument(CLI::App& command, std::string& file);
+
+/// The flags of kFieldFlags. `placements`: the other flags that place the camera.
+void addFieldFlags(CLI::App& command, SpecArguments& arguments, const std::vector<CLI::Option*>& placements);
 
 /// `cameras`: where --camera may be given several times.
 void addPictureFlags(CLI::App& command, SpecArguments& arguments, std::vector<std::string>* cameras = nullptr);

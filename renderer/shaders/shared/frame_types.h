@@ -124,6 +124,8 @@ using glm::vec4;
 #define GNOMON_TONE_NONE 0 // of pictures that are not encoded
 #define GNOMON_TONE_CLIP 1
 #define GNOMON_TONE_ACES 2
+#define GNOMON_TONE_NEUTRAL 3
+#define GNOMON_TONE_AGX 4
 
 struct FrameData {
   mat4 clipFromRelative;

@@ -5,6 +5,7 @@ import test from 'node:test';
 
 import { fromHash, toHash } from '../../../clients/web/deep_link.mjs';
 import { kSections } from '../../../clients/web/fields.mjs';
+import { lightsInForce } from '../../../clients/web/light_list.mjs';
 import { sunInForce, withSun } from '../../../clients/web/light_math.mjs';
 import { withoutScene } from '../../../clients/web/scene_spec.mjs';
 import { draftSpec } from '../../../clients/web/spec.mjs';
@@ -41,6 +42,14 @@ test('a picture has its own sun and is seen; the lights of the scene stay', () =
   assert.equal(litByFile(stateOf({ environment: { background: 'blurred' } }), 'a.hdr').environment.background, 'blurred');
   assert.deepEqual(litByStudio(stateOf(spec)).environment, { rotationDegrees: 20 });
   assert.deepEqual([spec, litBySky(stateOf({})), {}].map((each) => sourceOf({ spec: each })), ['file', 'sky', 'studio']);
+});
+
+test('the sun of a picture is no light of the user’s own', () => {
+  const lights = [kLamp, { type: 'directional', direction: [0, -1, 0] }];
+  const report = { spec: { lights, environment: { extractSun: 'removed' } }, environment: { sun: { lux: 3 } } };
+  assert.deepEqual(lightsInForce({ spec: {}, report }), [kLamp]);
+  assert.equal(lightsInForce({ spec: {}, report: { spec: { lights } } }).length, 2);
+  assert.equal(fieldOf('environment.extractSun').value(createStore({ spec: {}, report })), 'auto');
 });
 
 test('the panel offers the pictures of the upload, and asks for one where there is none', () => {

@@ -224,3 +224,18 @@ test('a scene as a whole is framed by the server, and turned from there', async 
   assert.deepEqual(complaints, []);
   await close();
 });
+
+test('the page has every word of the server for tones and for what is seen of the surroundings', async () => {
+  const { page, close } = await openPage(browser, atScene(), kDesktop);
+  const { schemas } = (await (await fetch(`${server.origin}/openapi.json`)).json()).components;
+  const partOf = (schema, step) => (schema.$ref ? schemas[schema.$ref.split('/').pop()] : schema).properties[step];
+  for (const path of ['toneMapping', 'environment.background']) {
+    const words = path.split('.').reduce(partOf, schemas.FrameSpec).enum;
+    const offered = await page.evaluate(async (wanted) => {
+      const { kSections } = await import('./fields.mjs');
+      return kSections.flatMap(({ fields }) => fields).find((field) => field.path === wanted).choices.map(([value]) => value);
+    }, path);
+    assert.deepEqual(offered.sort(), words.sort());
+  }
+  await close();
+});

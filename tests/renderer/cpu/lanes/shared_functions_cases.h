@@ -56,6 +56,27 @@ struct Tone {
   }
 };
 
+struct Caught {
+  template <class Columns>
+  static vec3 of(const Columns& in) {
+    const CaughtLight sun = caughtFrom(normalize(in.three(0)), normalize(in.three(3)), vec3(2.0f, 1.0f, 3.0f),
+                                       vec3(share(in.one(6)), share(in.one(7)), share(in.one(8))));
+    const CaughtLight sky = caughtAround(vec3(0.5f), vec3(share(in.one(9))));
+    const SeenLight behind = seenLight(vec3(2.0f), vec3(0.5f), share(in.one(10)));
+    const SeenLight seen = seenThroughCatcher(behind, caughtLight(sun.all + sky.all, sun.lost + sky.lost));
+    return seen.radiance + seen.color + vec3(seen.alpha);
+  }
+};
+
+template <int tone>
+struct Mapped {
+  template <class Columns>
+  static vec3 of(const Columns& in) {
+    const Real brightness = exp2(in.one(3) * 10.0f);
+    return toneMapped((in.three(0) * 0.5f + vec3(0.5f)) * brightness, tone);
+  }
+};
+
 struct Heat {
   template <class Columns>
   static vec3 of(const Columns& in) {

@@ -15,13 +15,13 @@ void sharedFunctionByLanes(std::size_t which, std::size_t rows, const float* in,
 /// An atlas of an environment: waves.
 const glm::vec4* wavyEnvironment();
 
-inline constexpr std::array sharedFunctionNames{"reflected",  "ambient",    "directional", "spot",
-                                                "point",      "tone",       "heat",        "glossy",
-                                                "octahedral", "by tangent", "by steps",    "environment"};
+inline constexpr std::array sharedFunctionNames{"reflected",  "ambient",  "directional", "spot",    "point",
+                                                "tone",       "caught",   "heat",        "glossy",  "octahedral",
+                                                "by tangent", "by steps", "environment", "neutral", "agx"};
 
 /// The cases in that order, as a list of what they are made of.
 #define GNOMON_SHARED_FUNCTION_CASES                                                                                   \
-  Reflected, Ambient, Arriving<GNOMON_DIRECTIONAL>, Arriving<GNOMON_SPOT>, Arriving<GNOMON_POINT>, Tone, Heat, Glossy, \
-      Octahedral, ByTangent, BySteps, Environment
+  Reflected, Ambient, Arriving<GNOMON_DIRECTIONAL>, Arriving<GNOMON_SPOT>, Arriving<GNOMON_POINT>, Tone, Caught, Heat, \
+      Glossy, Octahedral, ByTangent, BySteps, Environment, Mapped<GNOMON_TONE_NEUTRAL>, Mapped<GNOMON_TONE_AGX>
 
 } // namespace gnomon::cpu
