@@ -14,6 +14,8 @@ class JobWait : public ReplyWait {
  public:
   JobWait(const Services& services, JobWaiting waiting) : waiting_(std::move(waiting)), services_(services) {}
 
+  void wakeBy(const std::shared_ptr<StopSignal>& news) override { waiting_.job->wakeBy(news); }
+
  protected:
   bool isTimeOver() const { return services_.draining || Clock::now() >= waiting_.until; }
 

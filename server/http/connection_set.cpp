@@ -7,16 +7,10 @@
 #include <string_view>
 #include <sys/epoll.h>
 #include <system_error>
-#include <unistd.h>
 #include <utility>
 
 namespace gnomon {
 namespace {
-
-void drain(int eventFd) {
-  std::array<char, 8> count;
-  [[maybe_unused]] const auto read = ::read(eventFd, count.data(), count.size());
-}
 
 bool control(int poll, int operation, int fd, std::uint32_t events) {
   epoll_event event{};
@@ -123,7 +117,7 @@ std::vector<ConnectionSet::Readable> ConnectionSet::wait(Clock::time_point until
   for (int i = 0; i < count; ++i) {
     const epoll_event& event = events[static_cast<std::size_t>(i)];
     if (event.data.fd == wake_.fd()) {
-      drain(wake_.fd());
+      wake_.lower();
     } else {
       readable.push_back({event.data.fd, (event.events & (EPOLLHUP | EPOLLERR)) != 0});
     }

@@ -64,6 +64,8 @@ constexpr RefusalReason refusalOfStatus(int status) {
   return RefusalReason::none;
 }
 
+class StopSignal;
+
 /// Sends a piece of a body at once; false = the client is gone, and nothing more need be made.
 using BodySink = std::function<bool(std::string_view)>;
 
@@ -90,7 +92,11 @@ class ReplyWait {
 
   virtual ~ReplyWait() = default;
 
-  /// What there is to send since the last call. It is called again and again until there is a next step.
+  /// From now on raises `news`, from whatever thread, where look() may have something.
+  virtual void wakeBy(const std::shared_ptr<StopSignal>& news) = 0;
+
+  /// What there is to send since the last call. It is called then, and ten times a second besides, until there is a
+  /// next step.
   virtual News look() = 0;
 
   /// Sent of a stream after some seconds without anything else, so that proxies keep the connection open.

@@ -11,8 +11,7 @@
 namespace gnomon {
 namespace {
 
-constexpr std::chrono::milliseconds kPause{20}; ///< between two looks
-constexpr std::size_t kMorePauseAfter = 5;      ///< replies, each time a millisecond more
+constexpr int kTick = 100; ///< milliseconds, after which it looks whether the time of a reply is over
 constexpr std::chrono::seconds kHeartbeat{5};
 constexpr int kStatusLeft = 499; ///< in the log alone
 
@@ -44,20 +43,21 @@ WaitingReplies::~WaitingReplies() {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
   }
-  changed_.notify_one();
+  wake_->raise();
   thread_.join();
 }
 
 void WaitingReplies::adopt(OpenConnection connection) noexcept {
   try {
     const bool mayAsk = connection.held->isHttp11 && !connection.held->isBegun;
+    connection.held->reply.wait->wakeBy(wake_);
     const std::lock_guard lock(mutex_);
     adopted_.push_back({.connection = std::move(connection), .mayAsk = mayAsk});
     ++held_;
   } catch (const std::exception& error) {
     logEvent("connection", error.what());
   }
-  changed_.notify_one();
+  wake_->raise();
 }
 
 bool WaitingReplies::isEmpty() {
@@ -66,26 +66,22 @@ bool WaitingReplies::isEmpty() {
 }
 
 void WaitingReplies::watch() {
-  std::vector<pollfd> sockets;
+  std::vector<pollfd> polled;
   while (true) {
+    const bool isIdle = waiters_.empty() && wake_->fd() >= 0;
+    polled = {{wake_->fd(), POLLIN, 0}, {waiters_.empty() ? -1 : context_.cutReplies.fd(), POLLIN, 0}};
+    const std::size_t first = polled.size();
+    for (const Waiter& waiter : waiters_) polled.push_back({waiter.connection.socket.get(), eventsOf(waiter), 0});
+    ::poll(polled.data(), polled.size(), isIdle ? -1 : kTick);
+    wake_->lower();
     {
-      std::unique_lock lock(mutex_);
-      const auto isWanted = [&] { return stopping_ || !adopted_.empty(); };
-      if (waiters_.empty()) {
-        changed_.wait(lock, isWanted);
-      } else {
-        changed_.wait_for(lock, kPause + std::chrono::milliseconds(waiters_.size() / kMorePauseAfter),
-                          [&] { return stopping_; });
-      }
+      const std::lock_guard lock(mutex_);
       if (stopping_) return;
       waiters_.splice(waiters_.end(), adopted_);
     }
-    sockets.clear();
-    for (const Waiter& waiter : waiters_) sockets.push_back({waiter.connection.socket.get(), POLLRDHUP, 0});
-    ::poll(sockets.data(), sockets.size(), 0);
-    auto socket = sockets.begin();
+    std::size_t socket = first;
     for (auto waiter = waiters_.begin(); waiter != waiters_.end(); ++socket) {
-      const Fate fate = look(*waiter, socket->revents);
+      const Fate fate = look(*waiter, socket < polled.size() ? polled[socket].revents : short{0});
       const auto next = std::next(waiter);
       if (fate != Fate::stays) {
         part(*waiter, fate);
@@ -94,6 +90,11 @@ void WaitingReplies::watch() {
       waiter = next;
     }
   }
+}
+
+/// That end a sleep; a client that is gone always does.
+short WaitingReplies::eventsOf(const Waiter& waiter) {
+  return static_cast<short>((waiter.isHalfClosed ? 0 : POLLRDHUP) | (waiter.unsent.empty() ? 0 : POLLOUT));
 }
 
 WaitingReplies::Fate WaitingReplies::look(Waiter& waiter, short events) {
@@ -126,6 +127,7 @@ bool WaitingReplies::hasLeft(Waiter& waiter, short events) {
   if ((events & (POLLHUP | POLLERR)) != 0) return true;
   if ((events & POLLRDHUP) == 0) return false;
   if (waiter.connection.held->isBegun) return true;
+  waiter.isHalfClosed = true;
   if (!std::exchange(waiter.mayAsk, false)) return false;
   return !sendNow(waiter.connection.socket.get(), "HTTP/1.1 100 Continue\r\n\r\n");
 }

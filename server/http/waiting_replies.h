@@ -1,6 +1,5 @@
 #pragma once
 
-#include <condition_variable>
 #include <functional>
 #include <list>
 #include <memory>
@@ -49,7 +48,7 @@ struct HeldReply {
 };
 
 /// Connections whose replies wait (ReplyWait): one thread looks after them all, sends what is news, and notices clients
-/// that leave or take nothing. The more there are, the less often it looks.
+/// that leave or take nothing. It sleeps until there is news, or a socket has some, or the next tenth of a second.
 class WaitingReplies {
  public:
   using Leaving = std::function<void(OpenConnection)>;
@@ -67,12 +66,14 @@ class WaitingReplies {
     std::string unsent{};                   ///< of what it was to be sent
     bool isLast = false;                    ///< nothing comes after that
     bool mayAsk = false;                    ///< whether it is still there, by an interim reply
+    bool isHalfClosed = false;              ///< it sends nothing more, but waits
     Clock::time_point moved = Clock::now(); ///< when something was sent last
     Delivery delivery = Delivery::whole;    ///< of what is lost
   };
   enum class Fate { stays, goesOn, isLost };
 
   void watch();
+  static short eventsOf(const Waiter& waiter);
   Fate look(Waiter& waiter, short events);
   bool hasLeft(Waiter& waiter, short events);
   Delivery send(Waiter& waiter);
@@ -80,8 +81,8 @@ class WaitingReplies {
 
   const ConnectionContext& context_;
   const Leaving goesOn_;
+  const std::shared_ptr<StopSignal> wake_ = std::make_shared<StopSignal>();
   std::mutex mutex_;
-  std::condition_variable changed_;
   std::list<Waiter> adopted_;
   std::size_t held_ = 0; ///< connections, adopted ones included
   bool stopping_ = false;

@@ -20,6 +20,7 @@ bool JobNews::Watched::see(Result<JobProgress> found) {
     if (isSame(*found, last) || found->done < last.done || found->state < last.state) return false;
   }
   latest_ = std::make_shared<const Result<JobProgress>>(std::move(found));
+  for (const auto& wake : wakes_) wake->raise();
   return true;
 }
 

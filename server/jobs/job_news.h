@@ -5,11 +5,13 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
 
 #include "server/jobs/job_queue.h"
 #include "server/system/clock.h"
+#include "server/system/file_descriptor.h"
 
 namespace gnomon {
 
@@ -29,11 +31,18 @@ class JobNews {
       return latest_;
     }
 
+    /// From now on raises `news` whenever there is something newer.
+    void wakeBy(const std::shared_ptr<StopSignal>& news) const {
+      const std::lock_guard lock(mutex_);
+      wakes_.insert(news);
+    }
+
    private:
     friend class JobNews;
     bool see(Result<JobProgress> found);
 
     mutable std::mutex mutex_;
+    mutable std::set<std::shared_ptr<StopSignal>> wakes_; ///< one for all replies of a server
     std::shared_ptr<const Result<JobProgress>> latest_;
   };
 

@@ -79,6 +79,11 @@ void StopSignal::raise() noexcept {
   [[maybe_unused]] const auto written = ::write(event_.get(), &one, sizeof one);
 }
 
+void StopSignal::lower() noexcept {
+  std::uint64_t count = 0;
+  [[maybe_unused]] const auto read = ::read(event_.get(), &count, sizeof count);
+}
+
 bool StopSignal::waitFor(std::chrono::milliseconds patience) const {
   pollfd waiting{event_.get(), POLLIN, 0};
   return ::poll(&waiting, 1, static_cast<int>(patience.count())) == 1;

@@ -39,6 +39,7 @@ class StopSignal {
  public:
   StopSignal();
   void raise() noexcept;
+  void lower() noexcept; ///< until it is raised again; for the one that waits for it
   bool raised() const { return waitFor(std::chrono::milliseconds(0)); }
   bool waitFor(std::chrono::milliseconds patience) const; ///< true once it is raised; false where that comes later
   int fd() const { return event_.get(); }

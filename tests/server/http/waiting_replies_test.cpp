@@ -20,6 +20,11 @@ class TestedWait final : public ReplyWait {
   void put(News news) {
     const std::lock_guard lock(mutex_);
     news_ = std::move(news);
+    if (wake_) wake_->raise();
+  }
+  void wakeBy(const std::shared_ptr<StopSignal>& news) override {
+    const std::lock_guard lock(mutex_);
+    wake_ = news;
   }
   News look() override {
     const std::lock_guard lock(mutex_);
@@ -29,6 +34,7 @@ class TestedWait final : public ReplyWait {
  private:
   std::mutex mutex_;
   News news_;
+  std::shared_ptr<StopSignal> wake_;
 };
 
 /// "/later" waits and then is "the reply"; "/events" begins at once, goes on where its wait does, and has "more" from a
@@ -139,6 +145,19 @@ TEST_F(WaitingRepliesTest, AStreamGoesOnByItselfAndWithAThread) {
   EXPECT_EQ(receiveUntil(client, "more "), "more ");
   wait(0).put({.text = "last", .next = ReplyWait::Next::end});
   EXPECT_EQ(receiveUntil(client, "no such words"), "last") << "and the connection ends";
+}
+
+TEST_F(WaitingRepliesTest, NewsIsSentWhenItComesHoweverManyWait) {
+  const auto pending = enter();
+  std::vector<FileDescriptor> clients;
+  for (int i = 0; i < 100; ++i) clients.push_back(ask(*pending, "/events"));
+  receiveUntil(clients[40], "begun ");
+  const auto start = Clock::now();
+  for (int i = 0; i < 200; ++i) {
+    wait(40).put({.text = "news "});
+    ASSERT_EQ(receiveUntil(clients[40], "news "), "news ");
+  }
+  EXPECT_LT(Clock::now() - start, 10s) << "which is half of what 200 looks take, ten a second";
 }
 
 TEST_F(WaitingRepliesTest, AClientThatLeavesOrTakesNothingIsLetGo) {

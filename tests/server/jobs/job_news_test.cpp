@@ -40,6 +40,19 @@ TEST_F(JobNewsTest, EveryChangeIsSeenByAllThatWait) {
   }
 }
 
+TEST_F(JobNewsTest, NewsWakesThoseThatWait) {
+  ASSERT_TRUE(jobs_.put(jobOfFrames("job", 1)));
+  const auto watched = watch("job");
+  const auto wake = std::make_shared<StopSignal>();
+  watched->wakeBy(wake);
+  EXPECT_FALSE(wake->waitFor(100ms)) << "nothing has happened";
+  ASSERT_TRUE(jobs_.take(0ms));
+  EXPECT_TRUE(wake->waitFor(10s));
+  EXPECT_EQ((*watched->latest())->state, JobState::running);
+  wake->lower();
+  EXPECT_FALSE(wake->raised());
+}
+
 TEST_F(JobNewsTest, AJobThatIsRemovedIsCancelled) {
   ASSERT_TRUE(jobs_.put(jobOfFrames("job", 1)));
   const auto watched = watch("job");
