@@ -12,16 +12,16 @@ namespace {
 constexpr double kMoleculesScale = 8000; // metres of height in which the density falls to 1/e
 constexpr double kHazeScale = 1200;
 
-constexpr std::size_t kHeights = 48;
-constexpr std::size_t kAngles = 96;
+constexpr std::size_t kColumnHeights = 48;
+constexpr std::size_t kColumnAngles = 96;
 
 /// How far below the plane across the vertical the horizon lies.
 double dipOf(double height) {
   return std::acos(kEarthRadius / (kEarthRadius + height));
 }
 
-double heightOf(std::size_t row) {
-  const double share = static_cast<double>(row) / (kHeights - 1);
+double columnHeight(std::size_t row) {
+  const double share = static_cast<double>(row) / (kColumnHeights - 1);
   return kAirTop * share * share;
 }
 
@@ -99,25 +99,25 @@ Spectrum transmittance(const AirCoefficients& air, const AirColumn& column) {
   return share;
 }
 
-SunColumns::SunColumns() : columns_(kHeights * kAngles) {
-  forEach(kHeights, [&](std::size_t row) {
-    const double height = heightOf(row);
-    for (std::size_t i = 0; i < kAngles; ++i) {
-      const double share = static_cast<double>(i) / (kAngles - 1);
-      columns_[row * kAngles + i] = columnAlong(height, share * share * spanOf(height) - dipOf(height));
+SunColumns::SunColumns() : columns_(kColumnHeights * kColumnAngles) {
+  forEach(kColumnHeights, [&](std::size_t row) {
+    const double height = columnHeight(row);
+    for (std::size_t i = 0; i < kColumnAngles; ++i) {
+      const double share = static_cast<double>(i) / (kColumnAngles - 1);
+      columns_[row * kColumnAngles + i] = columnAlong(height, share * share * spanOf(height) - dipOf(height));
     }
   });
 }
 
 AirColumn SunColumns::columnAt(double height, double aboveHorizon) const {
-  const double row = std::sqrt(std::clamp(height / kAirTop, 0.0, 1.0)) * (kHeights - 1);
-  const double column = std::sqrt(std::clamp(aboveHorizon / spanOf(height), 0.0, 1.0)) * (kAngles - 1);
-  const auto y = std::min(static_cast<std::size_t>(row), kHeights - 2);
-  const auto x = std::min(static_cast<std::size_t>(column), kAngles - 2);
+  const double row = std::sqrt(std::clamp(height / kAirTop, 0.0, 1.0)) * (kColumnHeights - 1);
+  const double column = std::sqrt(std::clamp(aboveHorizon / spanOf(height), 0.0, 1.0)) * (kColumnAngles - 1);
+  const auto y = std::min(static_cast<std::size_t>(row), kColumnHeights - 2);
+  const auto x = std::min(static_cast<std::size_t>(column), kColumnAngles - 2);
   const double right = column - static_cast<double>(x), below = row - static_cast<double>(y);
-  const AirColumn* at = &columns_[y * kAngles + x];
+  const AirColumn* at = &columns_[y * kColumnAngles + x];
   return (at[0] * (1 - right) + at[1] * right) * (1 - below) +
-         (at[kAngles] * (1 - right) + at[kAngles + 1] * right) * below;
+         (at[kColumnAngles] * (1 - right) + at[kColumnAngles + 1] * right) * below;
 }
 
 Spectrum SunColumns::sunlight(const AirCoefficients& air, const AirPlace& place) const {

@@ -11,9 +11,9 @@
 namespace gnomon {
 namespace {
 
-constexpr int kWidth = 512, kHeight = 256; // of the map
-constexpr double kEyeHeight = 2;           // metres
-constexpr double kFaintest = 1e-3;         // lux; a sun that gives less is none. A full moon gives 0.3
+constexpr int kSkyWidth = 512, kSkyHeight = 256; // of the map
+constexpr double kEyeHeight = 2;                 // metres
+constexpr double kFaintest = 1e-3;               // lux; a sun that gives less is none. A full moon gives 0.3
 
 // Directions for which light is computed, and between which it is interpolated: elevations close together at the
 // horizon, azimuths from the sun's to the opposite one.
@@ -47,7 +47,7 @@ SkyTable skyTable(const ScatteringAir& air) {
   return table;
 }
 
-SkyColor colorAt(const SkyTable& table, double elevation, double azimuthFromSun) {
+SkyColor skyColorAt(const SkyTable& table, double elevation, double azimuthFromSun) {
   const double row = std::sqrt(std::clamp(elevation / glm::half_pi<double>(), 0.0, 1.0)) * (kElevations - 1);
   const double column = std::clamp(azimuthFromSun / glm::pi<double>(), 0.0, 1.0) * (kAzimuths - 1);
   const auto y = std::min(static_cast<std::size_t>(row), kElevations - 2);
@@ -77,15 +77,15 @@ glm::dvec3 radianceOf(const SkyTable& table, const glm::dvec3& direction, const 
   // With the sun overhead every azimuth is as good.
   const double azimuth = std::atan2(direction.x * towardsSun.z - direction.z * towardsSun.x,
                                     direction.x * towardsSun.x + direction.z * towardsSun.z);
-  const SkyColor color = colorAt(table, elevation, std::abs(azimuth));
+  const SkyColor color = skyColorAt(table, elevation, std::abs(azimuth));
   const double cosine = glm::dot(direction, towardsSun);
   const glm::dvec3 radiance =
       color.once * phaseOfMolecules(cosine) + color.onceHaze * phaseOfHaze(cosine) + color.moreOften;
   return withinSrgb(radiance);
 }
 
-glm::dvec3 directionAt(int x, int y) {
-  return environmentDirection({(x + 0.5) / kWidth, (y + 0.5) / kHeight});
+glm::dvec3 skyDirectionAt(int x, int y) {
+  return environmentDirection({(x + 0.5) / kSkyWidth, (y + 0.5) / kSkyHeight});
 }
 
 /// The share of light that ground of this color returns, by band: blue below 500 nm, red from 580 nm on.
@@ -101,8 +101,8 @@ Spectrum byBand(const Vec3& color) {
 void drawSky(EnvironmentMap& map, const SkyTable& table, const glm::dvec3& towardsSun) {
   forEach(static_cast<std::size_t>(map.height / 2), [&](std::size_t row) {
     for (int x = 0; x < map.width; ++x) {
-      const glm::dvec3 direction = directionAt(x, static_cast<int>(row));
-      map.texels[row * kWidth + static_cast<std::size_t>(x)] = glm::vec3(radianceOf(table, direction, towardsSun));
+      const glm::dvec3 direction = skyDirectionAt(x, static_cast<int>(row));
+      map.texels[row * kSkyWidth + static_cast<std::size_t>(x)] = glm::vec3(radianceOf(table, direction, towardsSun));
     }
   });
 }
@@ -113,7 +113,7 @@ glm::dvec3 skyIlluminance(const EnvironmentMap& map) {
   for (int y = 0; y < map.height / 2; ++y) {
     glm::dvec3 row(0.0);
     for (int x = 0; x < map.width; ++x) row += glm::dvec3(map.at(x, y));
-    sum += row * (texelSolidAngle(map, y) * directionAt(0, y).y);
+    sum += row * (texelSolidAngle(map, y) * skyDirectionAt(0, y).y);
   }
   return sum;
 }
@@ -141,7 +141,7 @@ Environment skyEnvironment(const Sky& sky) {
   const ScatteringAir air(coefficientsOf(sky.turbidity), {across, 0, towards.y}, byBand(sky.albedo));
 
   Environment made;
-  made.map = {kWidth, kHeight, std::vector<glm::vec3>(std::size_t{kWidth} * kHeight)};
+  made.map = {kSkyWidth, kSkyHeight, std::vector<glm::vec3>(std::size_t{kSkyWidth} * kSkyHeight)};
   drawSky(made.map, skyTable(air), towards);
   made.sun = sunOf(sky);
   glm::dvec3 onGround = skyIlluminance(made.map);

@@ -10,23 +10,23 @@ namespace gnomon {
 
 namespace {
 
-constexpr int kSteps = 40;           // of a ray to the eye
-constexpr int kSecondSteps = 16;     // of a ray of the table
-constexpr std::size_t kHeights = 12; // of the table
+constexpr int kEyeSteps = 40;             // of a ray to the eye
+constexpr int kSecondSteps = 16;          // of a ray of the table
+constexpr std::size_t kTableHeights = 12; // of the table
 constexpr std::size_t kSuns = 17;
 constexpr double kSunReach = 0.35; ///< radians: how far the sun of other places stands from that of the eye
 constexpr std::size_t kDirections = 32;
 
 /// Evenly spread over the sphere.
-glm::dvec3 directionOf(std::size_t index) {
+glm::dvec3 spreadDirection(std::size_t index) {
   constexpr double kGoldenAngle = 2.399963229728653;
   const double z = 1 - (2 * static_cast<double>(index) + 1) / kDirections;
   const double across = std::sqrt(1 - z * z), angle = kGoldenAngle * static_cast<double>(index);
   return {across * std::cos(angle), across * std::sin(angle), z};
 }
 
-double heightOf(std::size_t row) {
-  const double share = static_cast<double>(row) / (kHeights - 1);
+double tableHeight(std::size_t row) {
+  const double share = static_cast<double>(row) / (kTableHeights - 1);
   return kAirTop * share * share;
 }
 
@@ -91,7 +91,7 @@ Spectrum ScatteringAir::moreOftenOf(const AirPlace& place, const Spectrum& albed
   const double sunCosine = std::sqrt(std::max(0.0, 1 - place.sunSine * place.sunSine));
   const glm::dvec3 towardsSun(sunCosine, 0, place.sunSine);
   for (std::size_t i = 0; i < kDirections; ++i) {
-    const AirRay ray{place.height, directionOf(i)};
+    const AirRay ray{place.height, spreadDirection(i)};
     const Reach reach = reachOf(ray);
     const Spectrum left = walk(air_, towardsSun, ray, reach.length, kSecondSteps, [&](const Step& step) {
       const Spectrum sun = columns_.sunlight(air_, step.place);
@@ -122,9 +122,9 @@ double ScatteringAir::sunSineOfColumn(std::size_t column) const {
 Spectrum ScatteringAir::moreOftenAt(const AirPlace& place) const {
   const double turn = std::asin(std::clamp(place.sunSine, -1.0, 1.0)) - std::asin(towardsSun_.z);
   const double column = (std::clamp(turn / kSunReach, -1.0, 1.0) + 1) / 2 * (kSuns - 1);
-  const double row = std::sqrt(std::clamp(place.height / kAirTop, 0.0, 1.0)) * (kHeights - 1);
+  const double row = std::sqrt(std::clamp(place.height / kAirTop, 0.0, 1.0)) * (kTableHeights - 1);
   const auto x = std::min(static_cast<std::size_t>(column), kSuns - 2);
-  const auto y = std::min(static_cast<std::size_t>(row), kHeights - 2);
+  const auto y = std::min(static_cast<std::size_t>(row), kTableHeights - 2);
   const auto right = static_cast<float>(column - static_cast<double>(x));
   const auto below = static_cast<float>(row - static_cast<double>(y));
   const Spectrum* at = &moreOften_[y * kSuns + x];
@@ -138,16 +138,16 @@ Spectrum ScatteringAir::moreOftenAt(const AirPlace& place) const {
 
 ScatteringAir::ScatteringAir(const AirCoefficients& air, const glm::dvec3& towardsSun, const Spectrum& albedo)
     : air_(air), towardsSun_(towardsSun) {
-  std::vector<Spectrum> table(kHeights * kSuns);
+  std::vector<Spectrum> table(kTableHeights * kSuns);
   forEach(table.size(), [&](std::size_t i) {
-    table[i] = moreOftenOf({heightOf(i / kSuns), sunSineOfColumn(i % kSuns)}, albedo);
+    table[i] = moreOftenOf({tableHeight(i / kSuns), sunSineOfColumn(i % kSuns)}, albedo);
   });
   moreOften_ = std::move(table);
 }
 
 ScatteredLight ScatteringAir::along(const AirRay& ray) const {
   ScatteredLight light;
-  walk(air_, towardsSun_, ray, reachOf(ray).length, kSteps, [&](const Step& step) {
+  walk(air_, towardsSun_, ray, reachOf(ray).length, kEyeSteps, [&](const Step& step) {
     const Spectrum sun = columns_.sunlight(air_, step.place);
     const Spectrum more = moreOftenAt(step.place);
     for (std::size_t band = 0; band < kBands; ++band) {
