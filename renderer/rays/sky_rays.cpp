@@ -10,6 +10,15 @@
 #include "renderer/rays/tree.h"
 
 namespace gnomon {
+
+/// What an instance's surface is to its shading.
+struct SkyShaded {
+  glm::mat3 turn{1}; ///< of normals
+  float roughness = 1;
+  bool receives = false;
+  bool turned = false; ///< shading normals are on the eye's side
+};
+
 namespace {
 
 /// As a light that rays go to all places of.
@@ -37,17 +46,9 @@ Casters skyCasters(const TraceInput& input) {
   return casters;
 }
 
-/// What an instance's surface is to its shading.
-struct Shaded {
-  glm::mat3 turn{1}; ///< of normals
-  float roughness = 1;
-  bool receives = false;
-  bool turned = false; ///< shading normals are on the eye's side
-};
-
-std::vector<Shaded> shadedInstances(const TraceInput& input) {
+std::vector<SkyShaded> shadedInstances(const TraceInput& input) {
   const TracedScene::Tree& tree = input.traced.tree();
-  std::vector<Shaded> all(tree.view->instances.size());
+  std::vector<SkyShaded> all(tree.view->instances.size());
   for (std::uint32_t i = 0; i < all.size(); ++i) {
     const Material& material = tree.material(i);
     all[i] = {glm::mat3(normalMatrix(glm::dmat3(tree.instance(i).worldFromLocal))), material.roughnessFactor,
@@ -62,7 +63,7 @@ struct TracedSky::State {
   TraceInput input;
   Casters casters;
   LightSource source;
-  std::vector<Shaded> instances;
+  std::vector<SkyShaded> instances;
   DrawnView view;
 };
 
