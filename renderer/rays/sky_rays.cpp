@@ -142,7 +142,7 @@ void SkyPacket::start(const DrawnPlaces& drawn) {
   for (unsigned i = 0; i < kLanes; ++i) {
     const PlacedTriangle& shown = drawn.shown[i];
     const bool shows = shown.instance != kNoSurface;
-    const Shaded shaded = shows ? of.instances[shown.instance] : Shaded{};
+    const SkyShaded shaded = shows ? of.instances[shown.instance] : SkyShaded{};
     places_.receives[i] = shaded.receives ? -1 : 0;
     places_.roughness[i] = shaded.roughness;
     turned[i] = shaded.turned ? -1 : 0;
