@@ -52,6 +52,7 @@ struct MemorySummary {
   std::uint64_t indices = 0;
   std::uint64_t images = 0;
   std::uint64_t volumes = 0;
+  std::uint64_t environments = 0;
   std::uint64_t deformation = 0;
   std::uint64_t animations = 0;
   std::uint64_t structure = 0;

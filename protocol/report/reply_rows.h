@@ -30,6 +30,8 @@ inline constexpr auto kRows<MemorySummary> = replyRows(
     field<&MemorySummary::images>("Images, as if all were decoded; each is when a frame first needs it.",
                                   {.unit = "bytes"}),
     field<&MemorySummary::volumes>("Files of volumes, as they were uploaded.", {.unit = "bytes"}),
+    field<&MemorySummary::environments>("Files of environments, as they were uploaded and as if all were read.",
+                                        {.unit = "bytes"}),
     field<&MemorySummary::deformation>("Data from which skinned and morphed meshes are posed.", {.unit = "bytes"}),
     field<&MemorySummary::animations>("Keyframes, and what else is needed to pose the scene.", {.unit = "bytes"}),
     field<&MemorySummary::structure>("Nodes, instances, cameras, lights and materials.", {.unit = "bytes"}));

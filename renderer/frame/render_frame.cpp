@@ -23,7 +23,7 @@ namespace {
 
 Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& loaded, const FrameSpec& spec,
                          TileUse tiles) {
-  const auto settled = settleFrame(loaded, spec, &device.info());
+  auto settled = settleFrame(loaded, spec, &device.info());
   if (!settled) return settled.problems();
   const ScenePtr& scene = settled->scene;
   const ResolvedFrame& resolved = settled->frame;
@@ -133,6 +133,7 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   const auto warn = [&](std::vector<std::string> more) {
     std::move(more.begin(), more.end(), std::back_inserter(report.warnings));
   };
+  report.environment = settled->environment.report;
   report.warnings.insert(report.warnings.begin(), loaded->summary.warnings.begin(), loaded->summary.warnings.end());
   warn(damageOf(scene->images));
   warn(std::move(warnings));
