@@ -39,6 +39,7 @@ struct ConnectionLimits {
   std::chrono::milliseconds replyRoom{5'000}; ///< for other replies to be taken where they use all the memory
   Pace pace;                                  ///< bodies, both ways
   std::chrono::milliseconds threadWait{100};  ///< for a thread, once the head is complete
+  std::chrono::milliseconds look{100};        ///< between two looks at a reply that waits, without news of it
   std::chrono::milliseconds stay{2};          ///< of a thread with a client that may ask again at once
   std::size_t maxRequests = 10'000;
   std::size_t maxWaiting = 2'048; ///< connections that have no request to serve

@@ -11,7 +11,6 @@
 namespace gnomon {
 namespace {
 
-constexpr int kTick = 100; ///< milliseconds, after which it looks whether the time of a reply is over
 constexpr std::chrono::seconds kHeartbeat{5};
 constexpr int kStatusLeft = 499; ///< in the log alone
 
@@ -72,7 +71,7 @@ void WaitingReplies::watch() {
     polled = {{wake_->fd(), POLLIN, 0}, {waiters_.empty() ? -1 : context_.cutReplies.fd(), POLLIN, 0}};
     const std::size_t first = polled.size();
     for (const Waiter& waiter : waiters_) polled.push_back({waiter.connection.socket.get(), eventsOf(waiter), 0});
-    ::poll(polled.data(), polled.size(), isIdle ? -1 : kTick);
+    ::poll(polled.data(), polled.size(), isIdle ? -1 : static_cast<int>(context_.limits.look.count()));
     wake_->lower();
     {
       const std::lock_guard lock(mutex_);
