@@ -4,7 +4,7 @@ import http from 'node:http';
 import path from 'node:path';
 import { chromium } from 'playwright-core';
 
-const kTypes = { '.mjs': 'text/javascript', '.js': 'text/javascript', '.html': 'text/html' };
+const kTypes = { '.mjs': 'text/javascript', '.js': 'text/javascript', '.html': 'text/html', '.wasm': 'application/wasm' };
 
 // Serves `html` as /, and each folder of `mounts`, e.g. {'/scenes/': FOLDER}, on a free port of this machine. Gives the
 // origin, as http://HOST:PORT, and `close`.

@@ -1,0 +1,102 @@
+"""Draws a model in the light of an environment by Blender's Cycles.
+
+usage: blender --background --factory-startup --python cycles.py -- SETUP FILE
+
+SETUP is a file of JSON, as draw_environments.mjs makes it. Writes FILE.npy: rows from the top, red, green, blue in linear
+light, and the share of the pixel that the model covers; and FILE.json: {"version", "milliseconds"}.
+"""
+
+import json
+import math
+import sys
+import time
+from pathlib import Path
+
+import bpy
+import numpy
+from mathutils import Vector
+
+numpy.bool = bool  # Blender 3.4's importer of glTF still asks for this name.
+
+
+def blender_axes(vector):
+    """glTF's Y is up, Blender's Z."""
+    x, y, z = vector
+    return Vector((x, -z, y))
+
+
+def load(setup):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.import_scene.gltf(filepath=setup["modelFile"])
+    for thing in list(bpy.context.scene.objects):
+        if thing.type in ("LIGHT", "CAMERA"):
+            bpy.data.objects.remove(thing)
+
+
+def light_by(setup):
+    """Blender has the middle of the picture towards its +X and goes on towards its -Y, which is glTF's +Z."""
+    world = bpy.data.worlds.new("environment")
+    bpy.context.scene.world = world
+    world.use_nodes = True
+    nodes, links = world.node_tree.nodes, world.node_tree.links
+    place, turn = nodes.new("ShaderNodeTexCoord"), nodes.new("ShaderNodeMapping")
+    picture = nodes.new("ShaderNodeTexEnvironment")
+    picture.image = bpy.data.images.load(setup["environmentFile"])
+    picture.image.colorspace_settings.name = "Linear"
+    turn.inputs["Rotation"].default_value[2] = math.radians(setup["rotationDegrees"])
+    links.new(place.outputs["Generated"], turn.inputs["Vector"])
+    links.new(turn.outputs["Vector"], picture.inputs["Vector"])
+    links.new(picture.outputs["Color"], nodes["Background"].inputs["Color"])
+
+
+def add_camera(setup):
+    given = setup["camera"]
+    camera = bpy.data.cameras.new("camera")
+    camera.sensor_fit = "VERTICAL"
+    camera.angle = math.radians(given["fovYDegrees"])
+    camera.clip_start, camera.clip_end = given["near"], given["far"]
+    placed = bpy.data.objects.new("camera", camera)
+    bpy.context.scene.collection.objects.link(placed)
+    eye, target = blender_axes(given["eye"]), blender_axes(given["target"])
+    placed.location = eye
+    placed.rotation_euler = (target - eye).to_track_quat("-Z", "Y").to_euler()
+    bpy.context.scene.camera = placed
+
+
+def set_engine(setup, file):
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    scene.render.resolution_x, scene.render.resolution_y = setup["width"], setup["height"]
+    scene.render.film_transparent = True
+    scene.render.image_settings.file_format = "OPEN_EXR"
+    scene.render.image_settings.color_mode = "RGBA"
+    scene.render.image_settings.color_depth = "32"
+    scene.render.filepath = file
+    cycles = scene.cycles
+    cycles.samples = setup["samples"]
+    cycles.use_adaptive_sampling = cycles.use_denoising = False
+    cycles.sample_clamp_indirect = cycles.sample_clamp_direct = 0
+    cycles.blur_glossy = 0
+    cycles.pixel_filter_type = "BOX"
+    cycles.max_bounces = setup["bounces"]
+    cycles.transparent_max_bounces = 16
+
+
+def main(path, file):
+    setup = json.loads(Path(path).read_text())
+    load(setup)
+    light_by(setup)
+    add_camera(setup)
+    set_engine(setup, file + ".exr")
+    begin = time.perf_counter()
+    bpy.ops.render.render(write_still=True)
+    milliseconds = 1000 * (time.perf_counter() - begin)
+    drawn = bpy.data.images.load(file + ".exr")
+    pixels = numpy.empty(4 * setup["width"] * setup["height"], numpy.float32)
+    drawn.pixels.foreach_get(pixels)
+    numpy.save(file + ".npy", pixels.reshape(setup["height"], setup["width"], 4)[::-1])
+    about = {"version": bpy.app.version_string, "milliseconds": milliseconds}
+    Path(file + ".json").write_text(json.dumps(about))
+
+
+main(*sys.argv[-2:])
