@@ -67,7 +67,7 @@ inline constexpr auto kRows<SceneSummary> = replyRows(
     field<&SceneSummary::materialVariants>("Names of the file's material variants, for `materialVariant`."),
     field<&SceneSummary::volumeFiles>("Names of the upload's .npy and .vdb files, which a frame's `volumes` may show."),
     field<&SceneSummary::environmentFiles>(
-        "Names of the upload's .hdr and .exr files, which a frame's `environment` may name."),
+        "Names of the upload's .hdr and .exr files, which a frame's `environment` may be."),
     field<&SceneSummary::extensionsUsed>("glTF extensions that the file names."),
     field<&SceneSummary::extensionsIgnored>("Those that are not supported; the warnings say how that shows."),
     field<&SceneSummary::warnings>("What the file holds that is ignored or drawn differently."));

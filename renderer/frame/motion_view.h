@@ -21,8 +21,8 @@ struct EarlierMoment {
 };
 
 /// The frame's scene and camera with what `motionFrom` says instead. `now`: the frame's camera with nothing left open;
-/// `view`: what the frame shows; `ground`: the frame's, which does not move. Problems point into /motionFrom where that gives what is wrong. REQUIRES: the spec, as
-/// it was asked, has motionFrom.
+/// `view`: what the frame shows; `ground`: the frame's, which does not move. Problems point into /motionFrom where that
+/// gives what is wrong. REQUIRES: the spec, as it was asked, has motionFrom.
 Result<EarlierMoment> earlierMoment(const std::shared_ptr<const Scene>& loaded, const FrameSpec& asked,
                                     const Camera& now, const SceneView& view,
                                     const std::optional<GroundPlane>& ground = std::nullopt);

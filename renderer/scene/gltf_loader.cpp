@@ -19,9 +19,9 @@
 #include "renderer/scene/graph/attachments.h"
 #include "renderer/scene/graph/node_tree.h"
 #include "renderer/scene/graph/scene_views.h"
+#include "renderer/scene/ground.h"
 #include "renderer/scene/materials/materials.h"
 #include "renderer/scene/posing/deformation.h"
-#include "renderer/scene/ground.h"
 #include "renderer/scene/posing/pose.h"
 #include "renderer/scene/summary.h"
 

@@ -51,8 +51,8 @@ inline Pose poseOf(const FrameSpec& spec) {
   return {spec.animation, spec.nodes};
 }
 
-/// The scene in a pose, or itself where nothing moves and nothing is under it; kept for the next call. A problem for an animation or node that
-/// the file lacks. Any thread.
+/// The scene in a pose, or itself where nothing moves and nothing is under it; kept for the next call. A problem for an
+/// animation or node that the file lacks. Any thread.
 Result<std::shared_ptr<const Scene>> posedScene(const std::shared_ptr<const Scene>& scene, const Pose& pose);
 
 /// The same for a scene that outlives the result.
