@@ -88,6 +88,10 @@ const std::vector<ReadTexture>& CpuFrame::missingTextures(int samples) {
 
 Result<SeenDepths> CpuFrame::survey() {
   if (const Status made = needHoles(); !made) return made.problems();
+  if (work_.environment != nullptr && work_.environment->environment) {
+    scene_.environment = work_.environment->environment->prefiltered.texels.data();
+    setEnvironment(*work_.environment, scene_.frame);
+  }
   passStart_ = Clock::now();
   const int samples = gnomon::samplesOf(work_.frame.spec.antialiasing);
   survey_ = surveyScene(camera(), samples, work_.parts, std::exchange(shared_.storage[samples], {}));

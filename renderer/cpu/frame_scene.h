@@ -40,6 +40,7 @@ struct FrameScene {
   int width = 0; ///< of the picture, pixels
   int height = 0;
   SmoothAsked smooth;
+  const glm::vec4* environment = nullptr; ///< its atlas, as shared::EnvironmentTexels; null = the studio
 };
 
 FrameScene frameScene(const Scene& scene, const SceneView& view, const FrameGeometry& geometry,

@@ -23,7 +23,7 @@ static_assert(GNOMON_REGION_SIZE == kLightListSquare && GNOMON_REGION_SIZE % GNO
 // driver's by a test (shared_structs_gl_test.cpp).
 static_assert(sizeof(shared::LightData) == 9 * 16 && offsetof(shared::LightData, manualDepthBias) == 6 * 16);
 static_assert(sizeof(shared::TileData) == 10 * 16 && offsetof(shared::TileData, up) == 9 * 16);
-static_assert(sizeof(shared::FrameData) == 12 * 16 && offsetof(shared::FrameData, ahead) == 11 * 16);
+static_assert(sizeof(shared::FrameData) == 13 * 16 && offsetof(shared::FrameData, environmentTurn) == 11 * 16 + 8);
 static_assert(sizeof(shared::MaterialData) == 15 * 16);
 
 namespace {
@@ -114,6 +114,19 @@ shared::TileData tileData(const ShadowTile& tile, const glm::dvec2& atlas) {
   return out;
 }
 
+/// Of the surroundings behind the scene; less than 0 = they are not seen.
+float shownRoughness(EnvironmentBackground background) {
+  switch (background) {
+    case EnvironmentBackground::none:
+      return -1;
+    case EnvironmentBackground::environment:
+      return 0;
+    case EnvironmentBackground::blurred:
+      return 0.4f;
+  }
+  return -1;
+}
+
 } // namespace
 
 int filterKind(const FilterKernel& filter) {
@@ -159,10 +172,16 @@ shared::FrameData frameData(const ResolvedFrame& frame) {
   data.depthTerms = glm::vec2(clip[2][2], clip[3][2]);
   data.pixelStep = glm::vec2(2.0 / frame.spec.width, 2.0 / frame.spec.height);
   data.background = glm::vec4(toVector(background.color), background.alpha);
-  data.ambient = glm::vec3(toVector(ambient) * intensity);
+  data.ambient = glm::vec3(toVector(ambient) * (intensity * frame.spec.environment.intensity.value_or(1)));
   data.exposureScale = static_cast<float>(std::exp2(frame.spec.exposure));
   data.ahead = static_cast<float>(view.ahead);
+  data.shownRoughness = shownRoughness(frame.spec.environment.background);
   return data;
+}
+
+void setEnvironment(const FrameEnvironment& environment, shared::FrameData& data) {
+  data.environmentIntensity = static_cast<float>(environment.intensity);
+  data.environmentTurn = glm::vec2(environment.mapFromWorld[0][0], environment.mapFromWorld[2][0]);
 }
 
 shared::MaterialData materialData(const Material& material) {

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "renderer/environment/environment.h"
 #include "renderer/prepare/frame_geometry.h"
 #include "renderer/prepare/lit_light.h"
 #include "renderer/resolve/resolve_frame.h"
@@ -25,6 +26,9 @@ std::vector<shared::TileData> tileData(const ShadowPlan& plan);
 
 /// What all pixels of a frame share; the depths of the surfaces are left at 0.
 shared::FrameData frameData(const ResolvedFrame& frame);
+
+/// Puts an environment's turn and intensity into the data of a frame.
+void setEnvironment(const FrameEnvironment& environment, shared::FrameData& data);
 
 shared::MaterialData materialData(const Material& material);
 

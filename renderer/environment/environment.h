@@ -5,14 +5,16 @@
 #include <optional>
 
 #include "renderer/environment/environment_map.h"
+#include "renderer/environment/prefilter.h"
 
 /// An environment as frames are lit by it.
 namespace gnomon {
 
 /// Made once from a file or a sky, shared by frames. Immutable.
 struct Environment {
-  EnvironmentMap map;            ///< without its sun
-  std::optional<FoundSun> sun{}; ///< what was taken out of the map
+  EnvironmentMap map;                 ///< without its sun
+  std::optional<FoundSun> sun{};      ///< a light of the frame, which settling adds
+  PrefilteredEnvironment prefiltered; ///< of the map
 };
 
 /// The environment of one frame.

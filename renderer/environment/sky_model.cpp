@@ -6,6 +6,7 @@
 
 #include "renderer/core/light.h"
 #include "renderer/core/parallel.h"
+#include "renderer/environment/make_environment.h"
 #include "renderer/environment/sky_scattering.h"
 
 namespace gnomon {
@@ -147,7 +148,7 @@ Environment skyEnvironment(const Sky& sky) {
   glm::dvec3 onGround = skyIlluminance(made.map);
   if (made.sun) onGround += made.sun->irradiance * std::max(towards.y, 0.0);
   drawGround(made.map, onGround * glm::dvec3(sky.albedo[0], sky.albedo[1], sky.albedo[2]) / glm::pi<double>());
-  return made;
+  return makeEnvironment(std::move(made.map), made.sun);
 }
 
 } // namespace gnomon

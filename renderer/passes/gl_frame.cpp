@@ -133,6 +133,11 @@ GlFrame::GlFrame(GlShared& shared, const FrameWork& work)
 }
 
 Result<SeenDepths> GlFrame::survey() {
+  if (work_.environment != nullptr && work_.environment->environment) {
+    inputs_.environment = &shared_.environments.get(work_.environment->environment);
+    setEnvironment(*work_.environment, data_);
+    frame_.update(0, gl::bytesOfValue(data_));
+  }
   auto survey = surveyScene(inputs_, samplesOf(work_.frame.spec.antialiasing), work_.parts);
   if (!survey) return survey.problems();
   survey_ = std::move(*survey);

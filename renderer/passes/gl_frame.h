@@ -4,6 +4,7 @@
 
 #include "renderer/device/device.h"
 #include "renderer/gl/timer.h"
+#include "renderer/passes/gpu_environments.h"
 #include "renderer/passes/gpu_scene.h"
 #include "renderer/passes/pass_inputs.h"
 #include "renderer/passes/views/draw_views.h"
@@ -16,6 +17,7 @@ struct GlShared {
   GpuSceneCache scenes;
   TileCache tiles;
   GpuLightMaps lightMaps{};
+  GpuEnvironments environments{};
 };
 
 /// A frame, drawn by OpenGL: one pass after the other, each keeping what the later ones read.

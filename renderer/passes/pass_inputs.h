@@ -52,6 +52,7 @@ struct PassInputs {
   std::span<const NodeSwitches> nodes; ///< one a node of the file; empty = every node has the defaults
   std::span<const EdgeMesh> edges;     ///< one a primitive; empty where no light's technique asks for them
   bool receiverGroups = false;         ///< some light tells receiver groups apart: surfaces say to which they belong
+  const gl::Texture* environment = nullptr; ///< its atlas; null = the studio
 };
 
 /// Binds the buffers that every pass reads.

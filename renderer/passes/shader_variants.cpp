@@ -121,7 +121,10 @@ gl::ProgramSource surfaceProgram(const Material& material, const SurfaceVariant&
   if (masked) defines.emplace_back("ALPHA_MASK");
   if (material.specularGlossiness) defines.emplace_back("SPECULAR_GLOSSINESS");
   if (material.unlit) defines.emplace_back("UNLIT");
-  if (material.transmission > 0) defines.emplace_back("TRANSMISSION");
+  if (material.transmission > 0) {
+    defines.emplace_back("TRANSMISSION");
+    if (variant.environment) defines.emplace_back("ENVIRONMENT");
+  }
   if (variant.emission) defines.emplace_back("EMISSION");
   if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");
   int location = variant.emission ? 2 : 1;
@@ -155,6 +158,8 @@ gl::ProgramSource viewProgram(const ViewVariant& variant) {
   if (variant.shadowColor) defines.emplace_back("SHADOW_COLOR");
   if (variant.volumes) defines.emplace_back("VOLUMES");
   if (variant.volumeLight >= 0) defines.push_back("VOLUME_LIGHT " + std::to_string(variant.volumeLight));
+  if (variant.environment) defines.emplace_back("ENVIRONMENT");
+  if (variant.shownSurroundings) defines.emplace_back("SHOWN_SURROUNDINGS");
   if (variant.emission) defines.emplace_back("EMISSION");
   if (variant.unlit) defines.emplace_back("UNLIT");
   if (variant.receiverGroups) defines.emplace_back("RECEIVER_GROUPS");

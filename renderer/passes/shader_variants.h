@@ -31,6 +31,7 @@ struct SurfaceVariant {
   bool smoothPlaces = false;   ///< says where the surface lies that shading shows (shaders/shared/smooth_surface.h)
   int bakedLights = 0;         ///< whose light maps are read, 0 to GNOMON_LIGHT_MAPS
   int shownSamples = 0;        ///< of a pixel, where depth says which of them show a triangle; else 0
+  bool environment = false;    ///< the scene stands in one, not in the studio
 };
 
 /// Draws a material's surface.
@@ -59,13 +60,15 @@ struct ViewVariant {
   int tiles = 0;           ///< of the light that has most
   bool punctual = false;   ///< some light is a spot or a point
   ShadowSampling shadows{};
-  bool smoothPlaces = false;     ///< as in SurfaceVariant: some light asks for them
-  bool visibilityLayers = false; ///< rays or shadow volumes serve some light, or there is volumeLight
-  int bakedLights = 0;           ///< as in SurfaceVariant
-  int firstBaked = 0;            ///< the visibility layer of the first of them
-  bool shadowColor = false;      ///< some light's shadow is not black
-  bool volumes = false;          ///< clouds and the like are seen
-  int volumeLight = -1;          ///< the light that they shade surfaces from: a layer of its own, the last; -1 = none
+  bool smoothPlaces = false;      ///< as in SurfaceVariant: some light asks for them
+  bool visibilityLayers = false;  ///< rays or shadow volumes serve some light, or there is volumeLight
+  int bakedLights = 0;            ///< as in SurfaceVariant
+  int firstBaked = 0;             ///< the visibility layer of the first of them
+  bool shadowColor = false;       ///< some light's shadow is not black
+  bool volumes = false;           ///< clouds and the like are seen
+  int volumeLight = -1;           ///< the light that they shade surfaces from: a layer of its own, the last; -1 = none
+  bool environment = false;       ///< as in SurfaceVariant
+  bool shownSurroundings = false; ///< they are the background
 };
 
 /// Makes a view from the surfaces.

@@ -6,6 +6,7 @@
 
 #include "protocol/base/text.h"
 #include "protocol/spec/frame_lights.h"
+#include "protocol/spec/limits.h"
 #include "protocol/spec/settled_sun.h"
 #include "renderer/core/collect.h"
 #include "renderer/resolve/check_frame.h"
@@ -74,7 +75,8 @@ Problems whyWithout(Problems problems, const Camera& camera, const Scene& scene)
 
 } // namespace
 
-ResolvedFrame resolveFrame(const Scene& scene, const FrameSpec& spec, ProblemList& problems) {
+ResolvedFrame resolveFrame(const Scene& scene, const FrameSpec& spec, ProblemList& problems,
+                           std::span<const Light> ofEnvironment) {
   if (spec.quality) {
     problems.add({ProblemCode::invalidValue, "/quality",
                   "This call does not support quality targets; give settings instead.", "", ""});
@@ -84,10 +86,19 @@ ResolvedFrame resolveFrame(const Scene& scene, const FrameSpec& spec, ProblemLis
   if (nodes) frame.nodes = *std::move(nodes);
   const SceneView none;
   const SceneView& view = frame.scene < 0 ? none : scene.scenes[static_cast<std::size_t>(frame.scene)];
-  frame.spec.lights = lightsOf(spec, lightsOf(view));
-  if (!spec.lights && view.lights.size() > frame.spec.lights->size()) {
+  frame.spec.lights = lightsOf(spec, lightsOf(view), ofEnvironment);
+  const std::size_t own = frame.spec.lights->size() - ofEnvironment.size();
+  if (!spec.lights && view.lights.size() > own) {
     frame.warnings.push_back("The scene has " + std::to_string(view.lights.size()) + " lights; only the first " +
-                             std::to_string(frame.spec.lights->size()) + " light this frame.");
+                             std::to_string(own) + " light this frame.");
+  }
+  if (!ofEnvironment.empty()) {
+    frame.spec.environment.extractSun = SunExtraction::removed; // asked for again, it would be there twice
+    const auto most = static_cast<std::size_t>(kLimits.maxLights);
+    if (frame.spec.lights->size() > most) {
+      problems.add({ProblemCode::tooLarge, "/lights", "With the sun of the environment there are too many lights.",
+                    std::to_string(most), std::to_string(frame.spec.lights->size())});
+    }
   }
   appendNightWarnings(spec, frame.warnings);
   if (frame.spec.environment.sky) frame.spec.environment.sky->sun = settledSun(frame.spec.environment.sky->sun);

@@ -9,7 +9,6 @@ layout(post_depth_coverage) in;
 #include "common_surface_varyings.glsl"
 #include "common_surface.glsl"
 #include "common_names.glsl"
-#include "shared/surroundings.h"
 #include "shared/normal_map.h"
 #include "shared/specular_glossiness.h"
 #include "shared/smooth_surface.h"
@@ -19,6 +18,10 @@ layout(post_depth_coverage) in;
 #endif
 
 layout(std140, binding = GNOMON_FRAME_BUFFER) uniform FrameBuffer { FrameData frame; };
+#ifdef TRANSMISSION
+#define ENVIRONMENT_UNIT GNOMON_SURFACE_ENVIRONMENT_UNIT
+#include "common_environment.glsl"
+#endif
 layout(location = 0) out uvec4 surfaceBits;
 #ifdef EMISSION
 layout(location = 1) out vec4 emitted;
@@ -104,7 +107,7 @@ void main() {
 #elif defined(TRANSMISSION)
   // The diffuse part gives way to the surroundings behind, unshadowed and unbent.
   float passing = material.transmission * (1.0 - metallicRoughness.x);
-  vec3 behind = frame.ambient * radianceAround(-normalize(toEye).y, metallicRoughness.y);
+  vec3 behind = radianceOfSurroundings(-normalize(toEye), metallicRoughness.y);
   glow.rgb += passing * color.rgb * behind;
   color.rgb *= mix(1.0, metallicRoughness.x, passing);
 #endif

@@ -2,8 +2,8 @@
 #include "common_surface.glsl"
 #include "common_surface_read.glsl"
 #include "common_names.glsl"
-#include "shared/surroundings.h"
-#include "shared/brdf.h"
+#define ENVIRONMENT_UNIT GNOMON_ENVIRONMENT_UNIT
+#include "common_environment.glsl"
 #include "common_shadow.glsl"
 #include "shared/light.h"
 #include "common_light_lists.glsl"
@@ -37,12 +37,24 @@ bool isUnlit(vec4 emission) {
 #endif
 }
 
-vec3 radianceToEye(SurfacePoint s, Receiver receiver, vec4 emission, float occlusion) {
+// What a surface shows of the surroundings. `arriving`: what the scene leaves of their light, as environmentReflected
+// has it.
+vec3 reflectedSurroundings(Surface surface, SurfacePoint s, vec4 arriving) {
+#ifdef ENVIRONMENT
+  vec3 reflected = environmentReflected(environmentTexels, frame.environmentTurn, s, surface.baseColor, surface.metallic,
+                                        surface.roughness, surface.face, arriving);
+  return frame.environmentIntensity * reflected;
+#else
+  return frame.ambient * ambientReflected(s);
+#endif
+}
+
+vec3 radianceToEye(Surface surface, SurfacePoint s, Receiver receiver, vec4 emission) {
 #ifdef VIEW_LIGHT_CONTRIBUTION
   return isUnlit(emission) || debugLight < 0 ? vec3(0.0) : radianceFrom(debugLight, s, receiver);
 #else
   if (isUnlit(emission)) return emission.rgb;
-  vec3 sum = emission.rgb + frame.ambient * ambientReflected(s) * occlusion;
+  vec3 sum = emission.rgb + reflectedSurroundings(surface, s, vec4(1.0)) * surface.occlusion;
   uvec2 list = lightList();
   for (uint k = list.x; k < list.y; ++k) sum += radianceFrom(listedLight(k), s, receiver);
   return sum;
@@ -86,9 +98,20 @@ vec4 shownColor(SeenLight seen) {
   return vec4(shownColor(seen, frame.exposureScale, TONE), seen.alpha);
 }
 
+#ifdef SHOWN_SURROUNDINGS
+// Where the line of sight through the pixel's centre goes. Unit length.
+vec3 sightAway() {
+  vec2 ndc = gl_FragCoord.xy * frame.pixelStep - 1.0;
+  vec3 across = frame.right * ndc.x + frame.up * ndc.y;
+  return normalize(frame.perspective != 0u ? frame.middle + across : frame.middle);
+}
+#endif
+
 SeenLight backgroundLight() {
 #ifdef VIEW_LIGHT_CONTRIBUTION
   return seenLight(vec3(0.0), vec3(0.0), frame.background.a);
+#elif defined(SHOWN_SURROUNDINGS)
+  return seenLight(radianceOfSurroundings(sightAway(), frame.shownRoughness), vec3(0.0), 1.0);
 #else
   return seenLight(vec3(0.0), frame.background.rgb, frame.background.a);
 #endif
@@ -98,7 +121,7 @@ SeenLight surfaceLight(Surface surface, Sample seen, Receiver receiver) {
   vec3 toEye = frame.perspective != 0u ? -normalize(seen.relative) : -frame.forward;
   SurfacePoint s = surfacePoint(surface.baseColor, surface.metallic, surface.roughness, surface.normal, toEye);
   vec4 emission = emissionAt(seen.index);
-  vec3 radiance = radianceToEye(s, receiver, emission, surface.occlusion);
+  vec3 radiance = radianceToEye(surface, s, receiver, emission);
   return isUnlit(emission) ? seenLight(vec3(0.0), radiance, 1.0) : seenLight(radiance, vec3(0.0), 1.0);
 }
 

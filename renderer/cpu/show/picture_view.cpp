@@ -43,15 +43,21 @@ HWY_INLINE ShownColor shownColor(const ShowJob& job, SeenLight seen, const Int& 
   return {shownColor(seen, job.scene.frame.exposureScale, job.tone), seen.alpha};
 }
 
-/// Where no surface is.
-void fillBehindVolumes(const ShowJob& job, int squareX, int squareY, const glm::vec4& background, TileColors& colors) {
-  const SeenLight behind = seenLight(Float3(0.0f), Float3(glm::vec3(background)), background.w);
+/// Where no surface is, at pixels `x`, `y`.
+HWY_INLINE SeenLight seenBehindAll(const ShowJob& job, const glm::vec4& background, const Int& x, const Int& y) {
+  if (!showsSurroundings(job)) return seenLight(Float3(0.0f), Float3(glm::vec3(background)), background.w);
+  const shared::FrameData& frame = job.scene.frame;
+  const Sight sight = sightThrough(frame, {toFloat(x) + 0.5f, toFloat(y) + 0.5f});
+  return seenLight(radianceOfSurroundings(job.scene, normalize(sight.way), frame.shownRoughness), Float3(0.0f), 1.0f);
+}
+
+/// Where no surface is, with what differs from pixel to pixel.
+void fillBackground(const ShowJob& job, int squareX, int squareY, const glm::vec4& background, TileColors& colors) {
   for (int first = 0; first < static_cast<int>(kTilePixels); first += static_cast<int>(kLanes)) {
     const Int pixel = Int(first) + laneNumbers();
-    const Int x = Int(squareX) + columnOf(pixel);
-    const Int y = Int(squareY) + rowOf(pixel);
-    const auto [color, alpha] =
-        shownColor(job, behind, min(x, Int(job.scene.width - 1)), min(y, Int(job.scene.height - 1)));
+    const Int x = min(Int(squareX) + columnOf(pixel), Int(job.scene.width - 1));
+    const Int y = min(Int(squareY) + rowOf(pixel), Int(job.scene.height - 1));
+    const auto [color, alpha] = shownColor(job, seenBehindAll(job, background, x, y), x, y);
     const auto at = static_cast<std::size_t>(first);
     store(color.x, &colors.channels[0][at]);
     store(color.y, &colors.channels[1][at]);
@@ -88,9 +94,9 @@ void pictureSquareOn(const ShowJob& job, const FragmentList& list, int x, int y,
   const glm::vec4 background = job.view == View::lightContribution ? glm::vec4(0, 0, 0, job.scene.frame.background.w)
                                                                    : job.scene.frame.background;
   for (std::size_t c = 0; c < 4; ++c) colors.channels[c].fill(background[static_cast<int>(c)]);
-  std::optional<TileColors> behind; // where volumes stand before the background
-  if (!job.volumes.empty()) {
-    fillBehindVolumes(job, x, y, background, colors);
+  std::optional<TileColors> behind; // of each pixel
+  if (!isPlainBehind(job)) {
+    fillBackground(job, x, y, background, colors);
     behind = colors;
   }
   const float share = 1.0f / static_cast<float>(job.buffer.samples);

@@ -49,7 +49,7 @@ void fill(const ShowJob& job, Image& image, const Turn& turned, const Write& wri
     picture ? pictureSquare(job, list, x, y, colors) : dataSquare(job, list, x, y, colors);
     return turned(colors);
   };
-  const bool alike = picture && job.volumes.empty(); // squares that show no surface
+  const bool alike = picture && isPlainBehind(job); // squares that show no surface
   const auto background = square(FragmentList{}, 0, 0);
   forEachSquare(job.buffer, [&](const FragmentList& list, int x, int y) {
     if (alike && list.count == 0) {

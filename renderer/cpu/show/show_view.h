@@ -44,6 +44,17 @@ struct ShowJob {
   std::span<const std::int32_t> slotNodes = {}; ///< view casterIds: the node of each slot
 };
 
+/// Whether the surroundings are seen where no surface is.
+inline bool showsSurroundings(const ShowJob& job) {
+  const bool lit = traitsOf(job.view).source == ViewSource::picture && job.view != View::lightContribution;
+  return lit && job.scene.frame.shownRoughness >= 0;
+}
+
+/// Whether all pixels that show no surface are the same.
+inline bool isPlainBehind(const ShowJob& job) {
+  return job.volumes.empty() && !showsSurroundings(job);
+}
+
 /// The picture, first row on top, on all cores. `opaque`: as in ViewRequest.
 Image showView(const ShowJob& job, bool opaque);
 

@@ -23,6 +23,22 @@ HWY_INLINE SurfacePoint pointOf(const Surface& surface) {
   return surfacePoint(surface.baseColor, surface.metallic, surface.roughness, surface.normal, surface.toEye);
 }
 
+/// As environmentReflected has it. By itself, so that frames in the studio keep their registers.
+inline HWY_NOINLINE Float3 reflectedEnvironment(const FrameScene& scene, const Surface& surface,
+                                                const SurfacePoint& point, const Float4& arriving) {
+  const Float3 reflected =
+      environmentReflected(scene.environment, Float2(scene.frame.environmentTurn), point, surface.baseColor,
+                           surface.metallic, surface.roughness, surface.receiver.normal, arriving);
+  return reflected * scene.frame.environmentIntensity;
+}
+
+/// What surfaces show of the surroundings. `arriving`: what the scene leaves of their light.
+HWY_INLINE Float3 reflectedSurroundings(const FrameScene& scene, const Surface& surface, const SurfacePoint& point,
+                                        const Float4& arriving) {
+  if (scene.environment == nullptr) return Float3(scene.frame.ambient) * ambientReflected(point);
+  return reflectedEnvironment(scene, surface, point, arriving);
+}
+
 /// What one light adds to the lanes `asked`, all of which show a surface. `visibility(light, receiver, toLight,
 /// where)`: the share of it that arrives, 0..1, asked for the lanes `where`, of which it reflects something; in the
 /// others it may be any number.
@@ -60,7 +76,8 @@ HWY_INLINE Float3 radianceToEye(const FrameScene& scene, const Lighting& lightin
   const Mask lit = andNot(surface.unlit, fragments.shown);
   if (none(lit)) return surface.emission;
   const SurfacePoint point = pointOf(surface);
-  Float3 sum = surface.emission + Float3(scene.frame.ambient) * ambientReflected(point) * surface.occlusion;
+  const Float4 arriving(1.0f, 1.0f, 1.0f, 1.0f);
+  Float3 sum = surface.emission + reflectedSurroundings(scene, surface, point, arriving) * surface.occlusion;
   if (lighting.lists.empty()) {
     for (std::uint32_t k = 0; k < lighting.lights.size(); ++k) {
       sum += radianceFrom(lighting, k, point, surface.receiver, lit, visibility);

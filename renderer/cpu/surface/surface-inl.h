@@ -9,6 +9,7 @@
 #include "renderer/cpu/lanes/shared_functions-inl.h"
 #include "renderer/cpu/surface/fragments-inl.h"
 #include "renderer/cpu/surface/smooth_place-inl.h"
+#include "renderer/cpu/surface/surroundings-inl.h"
 #include "renderer/cpu/surface/texture_spots-inl.h"
 #include "renderer/cpu/surface/textures.h"
 
@@ -204,7 +205,7 @@ class InstanceSurface {
     } else if (material_.transmission > 0) {
       // The diffuse part gives way to the surroundings behind, unshadowed and unbent.
       const Float passing = data_.transmission * (1.0f - metallic);
-      const Float3 behind = Float3(frame_.ambient) * radianceAround(-s.toEye.y, roughness);
+      const Float3 behind = radianceOfSurroundings(scene_, -s.toEye, roughness);
       s.emission += color * passing * behind;
       color *= mix(Float(1.0f), metallic, passing);
     }

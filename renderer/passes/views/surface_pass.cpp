@@ -6,6 +6,7 @@
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/pipeline_state.h"
 #include "renderer/passes/draw_batch.h"
+#include "renderer/passes/gpu_environments.h"
 #include "renderer/passes/shader_variants.h"
 
 namespace gnomon {
@@ -95,8 +96,11 @@ Result<Surfaces> drawSurfaces(const PassInputs& inputs, const Survey& survey, in
   if (numbered) target->clearColor(static_cast<int>(attachments.color.size()) - 1, glm::uvec4(kNoNumber));
   bindInputs(inputs);
   const LightMapBindings bound(asks.maps);
+  std::optional<EnvironmentBinding> environment;
+  if (inputs.environment != nullptr) environment.emplace(*inputs.environment, GNOMON_SURFACE_ENVIRONMENT_UNIT);
   SurfaceVariant variant{.emission = emission, .receiverGroups = inputs.receiverGroups, .numbered = numbered};
   variant.smoothPlaces = asks.smoothPlaces;
+  variant.environment = inputs.environment != nullptr;
   variant.bakedLights = static_cast<int>(asks.maps.size());
   if (mapped != nullptr && reuse && samples > 1) variant.shownSamples = samples;
   const auto programOf = [&](const DrawGroup& group, const Material* material) {

@@ -1,10 +1,12 @@
 #include "renderer/passes/views/view_pass.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "protocol/spec/traits.h"
 #include "renderer/device/shader_data.h"
 #include "renderer/gl/draw.h"
+#include "renderer/passes/gpu_environments.h"
 #include "renderer/resolve/check_frame.h"
 
 namespace gnomon {
@@ -41,6 +43,10 @@ ViewVariant variantFor(const PassInputs& inputs, const Shading& shading, const V
   variant.shadowColor =
       traits.shadowed && std::any_of(shading.lights.begin(), shading.lights.end(),
                                      [](const LitLight& light) { return light.shadowColor != glm::dvec3(0); });
+  // Other views show no light from all around.
+  const bool surrounded = traits.source == ViewSource::picture && view != View::lightContribution;
+  variant.environment = surrounded && inputs.environment != nullptr;
+  variant.shownSurroundings = surrounded && shading.spec.environment.background != EnvironmentBackground::none;
   if (sources.volumes != nullptr) {
     variant.volumes = view == View::color;
     variant.volumeLight = sources.volumeLight;
@@ -95,6 +101,8 @@ Result<DrawnView> drawView(const PassInputs& inputs, const Shading& shading, con
 
   bindInputs(inputs);
   const ShadowBindings shadows(shading);
+  std::optional<EnvironmentBinding> environment;
+  if (variant.environment) environment.emplace(*inputs.environment, GNOMON_ENVIRONMENT_UNIT);
   shading.buffers.lists.bindStorage(GNOMON_LIGHT_LIST_BUFFER);
   if (traitsOf(request.view).oneLight) {
     (*program)->set(GNOMON_DEBUG_LIGHT, shading.debugLight);

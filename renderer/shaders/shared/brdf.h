@@ -39,16 +39,19 @@ GNOMON_FUNCTION vec3 reflectedRadiance(SurfacePoint s, vec3 toLight) {
   return select(nl <= 0.0f, vec3(0.0f), reflected);
 }
 
-// What a surface shows of the surroundings: Lambert, and the split-sum fit of Karis, "Physically Based Shading on
-// Mobile", 2014.
-GNOMON_FUNCTION vec3 ambientReflected(SurfacePoint s) {
-  Real roughness = sqrt(s.alpha);
-  Real nv = clamp(dot(s.normal, s.toEye), 0.0f, 1.0f);
+// What a surface reflects of light from all around: f0 times the first number plus the second, by the split-sum fit of
+// Karis, "Physically Based Shading on Mobile", 2014. `nv`: cosine of the eye's angle to the normal, 0..1.
+GNOMON_FUNCTION vec2 splitSum(Real roughness, Real nv) {
   Real rx = roughness * -1.0f + 1.0f;
   Real ry = roughness * -0.0275f + 0.0425f;
   Real a004 = min(rx * rx, exp2(-9.28f * nv)) * rx + ry;
-  Real scale = -1.04f * a004 + (roughness * -0.572f + 1.04f);
-  Real bias = 1.04f * a004 + (roughness * 0.022f + -0.04f);
+  return vec2(-1.04f * a004 + (roughness * -0.572f + 1.04f), 1.04f * a004 + (roughness * 0.022f + -0.04f));
+}
+
+// What a surface shows of the studio: Lambert, and the split sum.
+GNOMON_FUNCTION vec3 ambientReflected(SurfacePoint s) {
+  Real roughness = sqrt(s.alpha);
+  vec2 split = splitSum(roughness, clamp(dot(s.normal, s.toEye), 0.0f, 1.0f));
   vec3 mirrored = reflect(-s.toEye, s.normal);
-  return s.albedo * irradianceAround(s.normal.y) + (s.f0 * scale + bias) * radianceAround(mirrored.y, roughness);
+  return s.albedo * irradianceAround(s.normal.y) + (s.f0 * split.x + split.y) * radianceAround(mirrored.y, roughness);
 }

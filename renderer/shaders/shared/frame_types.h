@@ -73,6 +73,7 @@ using glm::vec4;
 #define GNOMON_EMISSIVE_UNIT 4
 #define GNOMON_LIGHT_MAP_UNIT 5 // and the next ones
 #define GNOMON_LIGHT_MAPS 4     // that surfaces are looked up in as they are drawn
+#define GNOMON_SURFACE_ENVIRONMENT_UNIT 9
 // Of passes over what was drawn:
 #define GNOMON_SURFACE_UNIT 0
 #define GNOMON_DEPTH_UNIT 1
@@ -85,6 +86,7 @@ using glm::vec4;
 #define GNOMON_VOLUMES_UNIT 8
 #define GNOMON_CASTER_NODE_UNIT 9
 #define GNOMON_CASTER_DEPTH_UNIT 10
+#define GNOMON_ENVIRONMENT_UNIT 11
 
 // Pixels along a side of a survey block (shadow_plan.h).
 #define GNOMON_BLOCK_SIZE 8
@@ -124,20 +126,23 @@ using glm::vec4;
 
 struct FrameData {
   mat4 clipFromRelative;
-  vec3 forward;        // the view axis
-  uint perspective;    // 0 = orthographic
-  vec3 middle;         // the way through the picture's middle, one metre of view depth long
-  float nearest;       // surface, metres of view depth
-  vec3 right;          // from the picture's middle to its right edge, at 1 m (perspective) or at any depth
-  float farthest;      // surface, metres of view depth
-  vec3 up;             // the same as `right` to the upper edge
-  float pixelHeight;   // there, metres
-  vec2 depthTerms;     // terms 2 2 and 3 2 of the projection
-  vec2 pixelStep;      // 2 / width, 2 / height
-  vec4 background;     // where there is no surface, as it shows
-  vec3 ambient;        // radiance of the surroundings
-  float exposureScale; // 2^exposure
-  float ahead;         // metres to be added to a depth that is shown, as the eye is moved ahead
+  vec3 forward;               // the view axis
+  uint perspective;           // 0 = orthographic
+  vec3 middle;                // the way through the picture's middle, one metre of view depth long
+  float nearest;              // surface, metres of view depth
+  vec3 right;                 // from the picture's middle to its right edge, at 1 m (perspective) or at any depth
+  float farthest;             // surface, metres of view depth
+  vec3 up;                    // the same as `right` to the upper edge
+  float pixelHeight;          // there, metres
+  vec2 depthTerms;            // terms 2 2 and 3 2 of the projection
+  vec2 pixelStep;             // 2 / width, 2 / height
+  vec4 background;            // where there is no surface, as it shows
+  vec3 ambient;               // radiance of the studio
+  float exposureScale;        // 2^exposure
+  float ahead;                // metres to be added to a depth that is shown, as the eye is moved ahead
+  float environmentIntensity; // radiance of the environment's texels is multiplied by it
+  vec2 environmentTurn;       // as inEnvironment of environment.h has it
+  float shownRoughness;       // of the surroundings where there is no surface; less than 0 = `background` shows there
   float padding1, padding2, padding3;
 };
 

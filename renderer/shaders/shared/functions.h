@@ -2,6 +2,7 @@
 
 #include <glm/glm.hpp>
 
+#include "renderer/shaders/shared/environment_squares.h"
 #include "renderer/shaders/shared/frame_types.h"
 
 /// What shaders and C++ both compute, from one text, here a number at a time. The texts use what GLSL and GLM both have
@@ -17,6 +18,7 @@ using glm::cross;
 using glm::dot;
 using glm::exp;
 using glm::exp2;
+using glm::floor;
 using glm::fract;
 using glm::inversesqrt;
 using glm::length;
@@ -47,6 +49,18 @@ inline float along(const vec4& row, const vec3& place) {
   return dot(row, vec4(place, 1.0f));
 }
 
+inline vec3 environmentSquare(float number) {
+  return kEnvironmentSquares[static_cast<int>(number)];
+}
+
+inline vec3 environmentTexel(EnvironmentTexels texels, const vec2& place) {
+  const vec2 from = floor(place - 0.5f);
+  const vec2 share = place - 0.5f - from;
+  const vec4* first = texels + static_cast<int>(from.y) * GNOMON_ENVIRONMENT_WIDTH + static_cast<int>(from.x);
+  const vec4* next = first + GNOMON_ENVIRONMENT_WIDTH;
+  return vec3(mix(mix(first[0], first[1], share.x), mix(next[0], next[1], share.x), share.y));
+}
+
 #define GNOMON_FUNCTION inline
 #define GNOMON_CONSTANT(name, value) inline constexpr float name = value
 #define GNOMON_OUT(type) type&
@@ -59,6 +73,8 @@ inline float along(const vec4& row, const vec3& place) {
 #include "renderer/shaders/shared/moments.h"
 #include "renderer/shaders/shared/normal_map.h"
 #include "renderer/shaders/shared/octahedral.h"
+// environment.h calls what brdf.h and octahedral.h define.
+#include "renderer/shaders/shared/environment.h"
 #include "renderer/shaders/shared/picture.h"
 #include "renderer/shaders/shared/shadow_bias.h"
 // debug_light.h calls what shadow_bias.h defines.
