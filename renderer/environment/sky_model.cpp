@@ -6,7 +6,6 @@
 
 #include "renderer/core/light.h"
 #include "renderer/core/parallel.h"
-#include "renderer/environment/make_environment.h"
 #include "renderer/environment/sky_scattering.h"
 
 namespace gnomon {
@@ -136,19 +135,17 @@ std::optional<FoundSun> sunOf(const Sky& sky) {
   return FoundSun{towards, kSunRadians, irradiance};
 }
 
-Environment skyEnvironment(const Sky& sky) {
+EnvironmentMap skyMap(const Sky& sky) {
   const glm::dvec3 towards = towardsSun(sky.sun);
   const double across = std::hypot(towards.x, towards.z);
   const ScatteringAir air(coefficientsOf(sky.turbidity), {across, 0, towards.y}, byBand(sky.albedo));
 
-  Environment made;
-  made.map = {kSkyWidth, kSkyHeight, std::vector<glm::vec3>(std::size_t{kSkyWidth} * kSkyHeight)};
-  drawSky(made.map, skyTable(air), towards);
-  made.sun = sunOf(sky);
-  glm::dvec3 onGround = skyIlluminance(made.map);
-  if (made.sun) onGround += made.sun->irradiance * std::max(towards.y, 0.0);
-  drawGround(made.map, onGround * glm::dvec3(sky.albedo[0], sky.albedo[1], sky.albedo[2]) / glm::pi<double>());
-  return makeEnvironment(std::move(made.map), made.sun);
+  EnvironmentMap map{kSkyWidth, kSkyHeight, std::vector<glm::vec3>(std::size_t{kSkyWidth} * kSkyHeight)};
+  drawSky(map, skyTable(air), towards);
+  glm::dvec3 onGround = skyIlluminance(map);
+  if (const auto sun = sunOf(sky)) onGround += sun->irradiance * std::max(towards.y, 0.0);
+  drawGround(map, onGround * glm::dvec3(sky.albedo[0], sky.albedo[1], sky.albedo[2]) / glm::pi<double>());
+  return map;
 }
 
 } // namespace gnomon

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "protocol/spec/environment_options.h"
-#include "renderer/environment/environment.h"
+#include "renderer/environment/environment_map.h"
 
 namespace gnomon {
 
@@ -15,10 +15,10 @@ inline constexpr double kUsualSkyIntensity = 3e-5;
 /// jump: while the disc sets, what is left of it fades.
 std::optional<FoundSun> sunOf(const Sky& sky);
 
-/// A clear sky with the ground below it, and its sun, as seen by a standing person: sky_scattering.h. In cd/m^2 (map)
-/// and lux (sun) as linear sRGB; X is east, Y up, Z south. No component is negative: what lies outside of sRGB is paled
+/// A clear sky without its sun, and the ground below it, as seen by a standing person: sky_scattering.h. In cd/m^2 as
+/// linear sRGB; X is east, Y up, Z south. No component is negative: what lies outside of sRGB is paled
 /// until it is within. Below the horizon lies even ground of `albedo`, lit by sky and sun. Takes about 50 ms of two
 /// cores; the same bits for any number of threads.
-Environment skyEnvironment(const Sky& sky);
+EnvironmentMap skyMap(const Sky& sky);
 
 } // namespace gnomon

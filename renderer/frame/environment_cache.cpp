@@ -29,7 +29,8 @@ Result<std::shared_ptr<const Environment>> EnvironmentCache::get(const std::shar
 std::shared_ptr<const Environment> EnvironmentCache::get(const Sky& sky) {
   constexpr std::size_t kMostSkies = 8; // of 1.5 MB; a day of the sun needs another one each frame
   if (const SkyEntry* found = skies_.find(sky, &SkyEntry::sky)) return found->environment;
-  const SkyEntry& added = skies_.add({sky, std::make_shared<const Environment>(skyEnvironment(sky))});
+  const SkyEntry& added =
+      skies_.add({sky, std::make_shared<const Environment>(makeEnvironment(skyMap(sky), sunOf(sky)))});
   skies_.keepNewest(kMostSkies);
   return added.environment;
 }

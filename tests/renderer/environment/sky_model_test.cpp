@@ -11,15 +11,24 @@
 namespace gnomon {
 namespace {
 
+struct Computed {
+  EnvironmentMap map;
+  std::optional<FoundSun> sun;
+};
+
+Computed computed(const Sky& sky) {
+  return {skyMap(sky), sunOf(sky)};
+}
+
 Sky skyOf(double elevation, double turbidity = 2, double albedo = 0.2) {
   return {.turbidity = turbidity, .albedo = {albedo, albedo, albedo}, .sun = {90, elevation}};
 }
 
 /// A sky that several tests look at is computed once.
-const Environment& clear(double elevation) {
-  static std::map<double, Environment> made;
+const Computed& clear(double elevation) {
+  static std::map<double, Computed> made;
   const auto found = made.find(elevation);
-  return found != made.end() ? found->second : made.emplace(elevation, skyEnvironment(skyOf(elevation))).first->second;
+  return found != made.end() ? found->second : made.emplace(elevation, computed(skyOf(elevation))).first->second;
 }
 
 /// Of level ground by the sky alone, lux.
@@ -39,7 +48,7 @@ glm::dvec3 onGround(const EnvironmentMap& map) {
 TEST(SkyModel, SunAndSkyAreAsBrightAsMeasured) {
   for (const double elevation : {10, 30, 60, 90}) {
     const double sine = std::sin(elevation * std::numbers::pi / 180);
-    const Environment& sky = clear(elevation);
+    const Computed& sky = clear(elevation);
     const double sun = 127'500 * std::exp(-0.21 / sine), ground = 800 + 15'500 * std::sqrt(sine);
     EXPECT_NEAR(luminanceOf(sky.sun->irradiance), sun, 0.1 * sun) << elevation;
     EXPECT_NEAR(luminanceOf(onGround(sky.map)), ground, 0.2 * ground) << elevation;
@@ -69,7 +78,7 @@ TEST(SkyModel, TheZenithIsBlueAndALowSunIsRed) {
 }
 
 TEST(SkyModel, HazeWhitensTheSkyAndDimsTheSun) {
-  const Environment hazy = skyEnvironment(skyOf(30, 10));
+  const Computed hazy = computed(skyOf(30, 10));
   const glm::vec3 blue = clear(30).map.at(0, 0), white = hazy.map.at(0, 0);
   EXPECT_LT(white.b / white.r, 0.6 * blue.b / blue.r);
   EXPECT_LT(luminanceOf(hazy.sun->irradiance), 0.3 * luminanceOf(clear(30).sun->irradiance));
@@ -77,7 +86,7 @@ TEST(SkyModel, HazeWhitensTheSkyAndDimsTheSun) {
 }
 
 TEST(SkyModel, GroundReflectsWhatArrivesAndBrightensTheSky) {
-  const Environment black = skyEnvironment(skyOf(30, 2, 0)), white = skyEnvironment(skyOf(30, 2, 1));
+  const Computed black = computed(skyOf(30, 2, 0)), white = computed(skyOf(30, 2, 1));
   EXPECT_EQ(black.map.at(100, 255), glm::vec3(0));
   EXPECT_GT(luminanceOf(onGround(white.map)), 1.1 * luminanceOf(onGround(black.map)));
   const glm::dvec3 arrives = onGround(white.map) + 0.5 * white.sun->irradiance;
@@ -85,14 +94,14 @@ TEST(SkyModel, GroundReflectsWhatArrivesAndBrightensTheSky) {
     EXPECT_NEAR(white.map.at(100, 128)[i], arrives[i] / std::numbers::pi, 1e-3 * arrives[i]);
     EXPECT_EQ(white.map.at(100, 128)[i], white.map.at(17, 255)[i]);
   }
-  const Environment red = skyEnvironment({.turbidity = 2, .albedo = {1, 0, 0}, .sun = {90, 30}});
+  const Computed red = computed({.turbidity = 2, .albedo = {1, 0, 0}, .sun = {90, 30}});
   EXPECT_GT(onGround(red.map).r, 1.05 * onGround(black.map).r);
   EXPECT_NEAR(onGround(red.map).b, onGround(black.map).b, 0.03 * onGround(black.map).b);
 }
 
 TEST(SkyModel, TheSunIsWhereItIsBrightest) {
   for (const double azimuth : {0.0, 90.0, 200.0}) {
-    const Environment sky = skyEnvironment({.turbidity = 3, .sun = {azimuth, 20}});
+    const Computed sky = computed({.turbidity = 3, .sun = {azimuth, 20}});
     const auto brightest = std::max_element(sky.map.texels.begin(), sky.map.texels.end(),
                                             [](const glm::vec3& a, const glm::vec3& b) { return a.g < b.g; });
     const auto index = static_cast<int>(brightest - sky.map.texels.begin());
@@ -107,7 +116,7 @@ TEST(SkyModel, TheSunIsWhereItIsBrightest) {
 TEST(SkyModel, EveryNumberIsFiniteAndNotNegative) {
   for (const double turbidity : {1.0, 10.0}) {
     for (const double elevation : {-90.0, -1.0, -0.2, 0.0, 0.1, 45.0, 90.0}) {
-      const Environment sky = skyEnvironment(skyOf(elevation, turbidity, turbidity > 1 ? 1 : 0));
+      const Computed sky = computed(skyOf(elevation, turbidity, turbidity > 1 ? 1 : 0));
       const bool good = std::all_of(sky.map.texels.begin(), sky.map.texels.end(), [](const glm::vec3& texel) {
         return std::isfinite(texel.r + texel.g + texel.b) && texel.r >= 0 && texel.g >= 0 && texel.b >= 0;
       });
@@ -130,7 +139,7 @@ TEST(SkyModel, TheSunFadesWithoutAJump) {
 }
 
 TEST(SkyModel, TheSameSkyHasTheSameBits) {
-  const Environment again = skyEnvironment(skyOf(10));
+  const Computed again = computed(skyOf(10));
   EXPECT_TRUE(again.map.texels == clear(10).map.texels);
 }
 
