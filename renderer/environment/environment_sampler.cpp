@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/core/light.h"
 #include "renderer/core/parallel.h"
 
 namespace gnomon {
@@ -19,10 +20,6 @@ glm::vec2 foldedOver(const glm::vec2& p) {
 glm::vec3 onOctahedron(const glm::vec2& p) {
   const float z = 1 - std::abs(p.x) - std::abs(p.y);
   return {z >= 0 ? p : foldedOver(p), z};
-}
-
-float luminanceOf(const glm::vec3& color) {
-  return glm::dot(color, glm::vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
 glm::vec2 placeOf(double column, double row) {
@@ -91,7 +88,7 @@ EnvironmentSampler::EnvironmentSampler(const std::function<glm::vec3(const glm::
         angle += part;
       }
       const glm::vec3 mean(sum / angle);
-      const double luminance = luminanceOf(mean);
+      const double luminance = luminanceOf(glm::dvec3(mean));
       cells_[row * kSide + column] = glm::vec4(mean, static_cast<float>(luminance));
       parts[column] = luminance * angle;
       squares[row] += luminance * luminance * angle;
