@@ -32,6 +32,7 @@ inline constexpr auto kRows<WorkerOptions> =
          field<&WorkerOptions::tracedSceneBytes>("Scenes for rays.", {.unit = "bytes"}),
          field<&WorkerOptions::lightMapBytes>("Baked light maps.", {.unit = "bytes"}),
          field<&WorkerOptions::volumeBytes>("Grids and light of volumes.", {.unit = "bytes"}),
+         field<&WorkerOptions::environmentBytes>("Environments prepared for shading.", {.unit = "bytes"}),
          field<&WorkerOptions::sceneMemoryBytes>("Loaded scenes.", {.unit = "bytes"}),
          field<&WorkerOptions::frameMemoryBytes>("Drawing and encoding frames.", {.unit = "bytes"}),
          field<&WorkerOptions::maxSceneBytes>("The largest bundle.", {.unit = "bytes"}),
