@@ -46,9 +46,9 @@ Result<DeviceChoice> askedDevice(const BackendOptions& backend) {
 }
 
 std::shared_ptr<FrameCaches> emptyCaches(const RendererOptions& options) {
-  return std::shared_ptr<FrameCaches>(new FrameCaches{TracedSceneCache(options.tracedSceneBytes),
-                                                      LightMapCache(options.lightMapBytes, options.lightMaps),
-                                                      VolumeCache(options.volumeBytes / 2)});
+  return std::shared_ptr<FrameCaches>(new FrameCaches{
+      TracedSceneCache(options.tracedSceneBytes), LightMapCache(options.lightMapBytes, options.lightMaps),
+      VolumeCache(options.volumeBytes / 2), EnvironmentCache(options.environmentBytes)});
 }
 
 } // namespace

@@ -50,6 +50,7 @@ struct RendererOptions {
   std::size_t lightMapBytes = 1u << 28;       ///< baked shadows kept, dropped in the same order
   std::shared_ptr<LightMapStore> lightMaps{}; ///< where baked shadows outlive the renderer; nullptr = nowhere
   std::size_t volumeBytes = 1u << 29;         ///< half of it grids of volumes kept, half the light in them
+  std::size_t environmentBytes = 1u << 28;    ///< environments kept, dropped in the same order
   std::size_t tileCacheBytes = 1u << 28;      ///< shadow atlases kept for later frames; 0 = every tile is drawn again
 };
 

@@ -48,6 +48,7 @@ ServeOptions fittedTo(std::uint64_t memoryBytes) {
   atMost(options.tileCacheBytes, 48);
   atMost(options.lightMapBytes, 48);
   atMost(options.volumeBytes, 32);
+  atMost(options.environmentBytes, 48);
   options.jobBytes = std::min(options.jobBytes, shared / 64);
   options.maxSceneBytes = std::min(options.maxSceneBytes, options.uploadMemoryBytes / 2);
   return options;

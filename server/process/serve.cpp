@@ -137,6 +137,7 @@ DispatcherOptions dispatcherOptions(const ServeOptions& options, std::shared_ptr
                    .tracedSceneBytes = options.tracedSceneBytes / workers,
                    .lightMapBytes = options.lightMapBytes / workers,
                    .volumeBytes = options.volumeBytes / workers,
+                   .environmentBytes = options.environmentBytes / workers,
                    .sceneMemoryBytes = options.sceneMemoryBytes / workers,
                    .frameMemoryBytes = options.frameMemoryBytes / workers,
                    .maxSceneBytes = options.maxSceneBytes,

@@ -45,6 +45,7 @@ struct ServeOptions {
   std::size_t lightMapBytes = 1u << 28;
   std::size_t storedLightMapBytes = 1u << 30;
   std::size_t volumeBytes = 1u << 30;
+  std::size_t environmentBytes = 1u << 29;
   std::size_t sceneMemoryBytes = 2ull << 30;
   std::size_t bundleMemoryBytes = 1ull << 30;
   std::size_t maxSceneBytes = kLimits.maxSceneBytes;

@@ -110,6 +110,8 @@ inline constexpr std::array kLimitRows{
            "Baked light maps and settings chosen for a target in the store, the least recently used dropped first"),
     option("volume-bytes", &ServeOptions::volumeBytes, kCache,
            "Grids of volumes and the light in them, the least recently used dropped first"),
+    option("environment-bytes", &ServeOptions::environmentBytes, kCache,
+           "Environments prepared for shading, the least recently used dropped first"),
     option("scene-memory-bytes", &ServeOptions::sceneMemoryBytes, kRoom,
            "Loaded scenes of all workers, the least recently used dropped first; one may take a worker's share"),
     option("bundle-memory-bytes", &ServeOptions::bundleMemoryBytes, kRoom,

@@ -26,9 +26,9 @@ template <>
 inline constexpr auto kRows<WorkerOptions> =
     plainRows<&WorkerOptions::device, &WorkerOptions::backend, &WorkerOptions::requireGpu,
               &WorkerOptions::gpuSceneBytes, &WorkerOptions::tileCacheBytes, &WorkerOptions::tracedSceneBytes,
-              &WorkerOptions::lightMapBytes, &WorkerOptions::volumeBytes, &WorkerOptions::sceneMemoryBytes,
-              &WorkerOptions::frameMemoryBytes, &WorkerOptions::maxSceneBytes, &WorkerOptions::memoryBytes,
-              &WorkerOptions::vdbBytes, &WorkerOptions::keepsLightMaps>("WorkerOptions");
+              &WorkerOptions::lightMapBytes, &WorkerOptions::volumeBytes, &WorkerOptions::environmentBytes,
+              &WorkerOptions::sceneMemoryBytes, &WorkerOptions::frameMemoryBytes, &WorkerOptions::maxSceneBytes,
+              &WorkerOptions::memoryBytes, &WorkerOptions::vdbBytes, &WorkerOptions::keepsLightMaps>("WorkerOptions");
 
 template <>
 inline constexpr auto kRows<SensorRange> = plainRows<&SensorRange::min, &SensorRange::max>("SensorRange");

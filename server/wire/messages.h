@@ -26,6 +26,7 @@ struct WorkerOptions {
   std::uint64_t tracedSceneBytes = 1u << 30;   ///< scenes sorted for rays
   std::uint64_t lightMapBytes = 1u << 28;      ///< baked light maps
   std::uint64_t volumeBytes = 1u << 29;        ///< grids of volumes, and the light in them
+  std::uint64_t environmentBytes = 1u << 28;   ///< environments prepared for shading
   std::uint64_t sceneMemoryBytes = 2ull << 30; ///< loaded scenes
   std::uint64_t frameMemoryBytes = 4ull << 30; ///< drawing and encoding the frames in progress
   std::uint64_t maxSceneBytes = kLimits.maxSceneBytes;

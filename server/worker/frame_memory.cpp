@@ -119,6 +119,18 @@ std::size_t volumeBytes(const FrameSpec& spec, const SceneSummary& scene, std::s
          samples * kSample + pixelsIn(spec) * kPixel;
 }
 
+/// Of the environment: its map, what is read on the way to it, and what is prepared for shading.
+std::size_t environmentBytes(const FrameSpec& spec, const SceneSummary& scene) {
+  constexpr std::size_t kPrepared = 16u << 20; ///< whatever the map's size; a sky is no larger
+  constexpr std::size_t kMaps = 4;             ///< as read, kept, and as cells in which light is summed
+  constexpr std::size_t kTexel = 3 * sizeof(float);
+  constexpr std::size_t kWidth = kLimits.maxEnvironmentWidth;
+  if (spec.environment.sky) return kPrepared;
+  if (!spec.environment.file) return 0;
+  const auto map = std::min(static_cast<std::size_t>(scene.memory.environments), kWidth * kWidth / 2 * kTexel);
+  return kPrepared + kMaps * map;
+}
+
 } // namespace
 
 std::size_t frameBytes(const FrameSpec& spec, const SceneSummary& scene, DeviceKind device, bool asJson) {
@@ -146,7 +158,7 @@ std::size_t frameBytes(const FrameSpec& spec, const SceneSummary& scene, DeviceK
     largest = std::max(largest, bytes);
   }
   std::size_t drawn = samples * own.sample + pixels * own.picturePixel + shadowBytes(spec, lights, samples, own) +
-                      volumeBytes(spec, scene, lights.size(), samples);
+                      volumeBytes(spec, scene, lights.size(), samples) + environmentBytes(spec, scene);
   if (showsAny(spec, ViewSource::rays)) drawn += pixels * kReferenceBytes;
   if (showsAny(spec, ViewSource::geometry)) drawn += pixels * kTriangle;
   if (std::ranges::find(spec.views, View::casterIds) != spec.views.end()) drawn += pixels * kCaster;

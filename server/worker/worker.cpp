@@ -140,6 +140,7 @@ class Worker {
                                          .lightMapBytes = options.lightMapBytes,
                                          .lightMaps = options.keepsLightMaps ? lightMaps_ : nullptr,
                                          .volumeBytes = options.volumeBytes,
+                                         .environmentBytes = options.environmentBytes,
                                          .tileCacheBytes = options.tileCacheBytes});
     if (!renderer) refuse(renderer.problems());
     renderer_ = *std::move(renderer);

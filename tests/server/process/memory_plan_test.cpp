@@ -12,8 +12,8 @@ constexpr std::uint64_t kGiB = 1u << 30;
 std::uint64_t kept(const ServeOptions& options) {
   return options.sceneMemoryBytes + options.frameMemoryBytes + options.tracedSceneBytes + options.uploadMemoryBytes +
          options.gpuSceneBytes + options.bundleMemoryBytes + options.replyMemoryBytes + options.tileCacheBytes +
-         options.lightMapBytes + options.volumeBytes + options.replyCacheBytes + options.jobBytes +
-         options.videoMemoryBytes;
+         options.lightMapBytes + options.volumeBytes + options.environmentBytes + options.replyCacheBytes +
+         options.jobBytes + options.videoMemoryBytes;
 }
 
 TEST(MemoryPlan, BudgetsTogetherFitIntoTheMemory) {

@@ -84,6 +84,15 @@ TEST(FrameMemory, CountsVolumesAndTheLightInThem) {
   EXPECT_GT(bytesOf(spec, scene), before + (32 << 20) + 2 * (4 << 20));
 }
 
+TEST(FrameMemory, CountsTheEnvironment) {
+  SceneSummary scene;
+  scene.memory.environments = 32 << 20;
+  FrameSpec spec = unshadowed();
+  const std::size_t before = bytesOf(spec, scene);
+  spec.environment.file = "sky.hdr";
+  EXPECT_GE(bytesOf(spec, scene), before + 4 * (32 << 20));
+}
+
 TEST(FrameMemory, TheAtlasHasItsOwnSize) {
   FrameSpec spec = unshadowed();
   const std::size_t before = bytesOf(spec);
