@@ -69,7 +69,8 @@ GNOMON_FUNCTION EnvironmentShares environmentShares(SurfacePoint s, vec3 baseCol
 GNOMON_FUNCTION vec3 environmentReflected(EnvironmentTexels texels, vec2 turn, SurfacePoint s, vec3 baseColor,
                                           Real metallic, Real roughness, vec3 face, vec4 arriving) {
   EnvironmentShares shares = environmentShares(s, baseColor, metallic);
-  vec3 mirrored = reflect(-s.toEye, s.normal);
+  // Interpolated normals of outlines may turn away from the eye.
+  vec3 mirrored = s.normal * (2.0f * max(dot(s.normal, s.toEye), 0.0f)) - s.toEye;
   vec3 around = environmentRadiance(texels, inEnvironment(mirrored, turn), roughness);
   vec3 diffuse = environmentIrradiance(texels, inEnvironment(s.normal, turn));
   return vec3(arriving.x, arriving.y, arriving.z) * shares.diffuse * diffuse +
