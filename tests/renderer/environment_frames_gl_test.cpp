@@ -144,7 +144,7 @@ TEST(EnvironmentFrames, TheBackgroundIsWhatComesAlongTheLineOfSight) {
   const auto lens = [&](glm::dvec2 p) { return glm::normalize(glm::dvec3(p.x * up * 1.5, p.y * up, -1)); };
   const Json place{{"eye", {0, 30, 0}}, {"target", {0, 30, -1}}};
   Json perspective = place, flat = place;
-  perspective["perspective"] = {{"fovDegrees", 40}};
+  perspective["perspective"] = {{"fovYDegrees", 40}};
   flat["orthographic"] = {{"height", 4}};
   for (const Seen& seen : {Seen{perspective, lens}, Seen{flat, [](glm::dvec2) { return glm::dvec3(0, 0, -1); }}}) {
     for (const double turn : {0.0, 90.0}) {
@@ -199,8 +199,8 @@ TEST(EnvironmentFrames, TheStudioIsSeenAndScaledToo) {
     const Frame dark = drawn(device, scene, half);
     const Frame behind = drawn(device, scene, seen);
     EXPECT_NEAR(colorAt(dark, 120, 80).x, 0.5f * colorAt(full, 120, 80).x, 1e-3f);
-    EXPECT_EQ(colorAt(behind, 120, 80), colorAt(full, 120, 80));
-    EXPECT_GT(colorAt(behind, 2, 2).x, 0.3f) << "the studio's floor";
+    EXPECT_NEAR(colorAt(behind, 120, 80).x, colorAt(full, 120, 80).x, 1e-5f);
+    EXPECT_NEAR(colorAt(behind, 2, 2).x, 0.3 * 0.35, 0.01) << "the floor of the studio";
   }
 }
 
