@@ -27,10 +27,10 @@ GNOMON_FUNCTION vec3 environmentRadiance(EnvironmentTexels texels, vec3 directio
 }
 
 // The share of mirrored light that leaves a surface whose shading normal sends it below the plane of its triangle
-// (Russell, "Horizon Occlusion for Normal Mapped Reflections", 2013), which begins a tenth lower here: smooth shading
+// (Russell, "Horizon Occlusion for Normal Mapped Reflections", 2013), which begins a fifth lower here: smooth shading
 // alone goes that far at outlines.
 GNOMON_FUNCTION Real aboveHorizon(vec3 mirrored, vec3 face) {
-  Real shown = clamp(1.13f + 1.3f * dot(mirrored, face), 0.0f, 1.0f);
+  Real shown = clamp(1.26f + 1.3f * dot(mirrored, face), 0.0f, 1.0f);
   return shown * shown;
 }
 
