@@ -27,10 +27,10 @@ GNOMON_FUNCTION vec3 environmentRadiance(EnvironmentTexels texels, vec3 directio
 }
 
 // The share of mirrored light that leaves a surface whose shading normal sends it below the plane of its triangle
-// (Russell, "Horizon Occlusion for Normal Mapped Reflections", 2013), which begins a tenth lower here: smooth shading
+// (Russell, "Horizon Occlusion for Normal Mapped Reflections", 2013), which begins a fifth lower here: smooth shading
 // alone goes that far at outlines.
 GNOMON_FUNCTION Real aboveHorizon(vec3 mirrored, vec3 face) {
-  Real shown = clamp(1.13f + 1.3f * dot(mirrored, face), 0.0f, 1.0f);
+  Real shown = clamp(1.26f + 1.3f * dot(mirrored, face), 0.0f, 1.0f);
   return shown * shown;
 }
 
@@ -69,7 +69,8 @@ GNOMON_FUNCTION EnvironmentShares environmentShares(SurfacePoint s, vec3 baseCol
 GNOMON_FUNCTION vec3 environmentReflected(EnvironmentTexels texels, vec2 turn, SurfacePoint s, vec3 baseColor,
                                           Real metallic, Real roughness, vec3 face, vec4 arriving) {
   EnvironmentShares shares = environmentShares(s, baseColor, metallic);
-  vec3 mirrored = reflect(-s.toEye, s.normal);
+  // Interpolated normals of outlines may turn away from the eye.
+  vec3 mirrored = s.normal * (2.0f * max(dot(s.normal, s.toEye), 0.0f)) - s.toEye;
   vec3 around = environmentRadiance(texels, inEnvironment(mirrored, turn), roughness);
   vec3 diffuse = environmentIrradiance(texels, inEnvironment(s.normal, turn));
   return vec3(arriving.x, arriving.y, arriving.z) * shares.diffuse * diffuse +
