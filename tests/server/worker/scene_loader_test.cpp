@@ -1,13 +1,10 @@
 #include "server/worker/scene_loader.h"
 
 #include <atomic>
-#include <cstdlib>
-#include <fstream>
 #include <future>
 #include <gtest/gtest.h>
 #include <optional>
 #include <stdexcept>
-#include <sys/resource.h>
 #include <thread>
 #include <vector>
 
@@ -82,42 +79,6 @@ TEST(SceneLoader, RefusesWhatMemoryCannotHold) {
   const auto failure = SceneLoader(10, kLimits).get(cube(1).id, {cube(1).file});
   ASSERT_FALSE(loaded(failure));
   EXPECT_EQ(std::get<LoadFailure>(failure).problems[0].code, ProblemCode::tooLarge);
-}
-
-/// From now on this process may have so many bytes more than it has.
-void limitMemory(std::size_t more) {
-  std::ifstream status("/proc/self/status");
-  std::string line;
-  while (std::getline(status, line) && !line.starts_with("VmData:")) {
-  }
-  const rlim_t bytes = std::stoull(line.substr(7)) * 1024 + more;
-  const rlimit limit{bytes, bytes};
-  ::setrlimit(RLIMIT_DATA, &limit);
-}
-
-// A file of a few hundred bytes whose accessor says that it has four million points, all zero.
-TEST(SceneLoader, WithoutMemoryItSaysSo) {
-#ifdef GNOMON_SANITIZED
-  GTEST_SKIP() << "A sanitizer ends a process that gets no memory.";
-#endif
-  auto builder = testing::triangle();
-  for (auto& accessor : builder.json["accessors"]) {
-    accessor.erase("bufferView");
-    accessor["count"] = 3 << 20;
-    accessor["min"] = accessor["max"] = {0, 0, 0};
-  }
-  const Stored bundle(builder.bundle());
-  SceneLoader loader(1 << 30, kLimits);
-  EXPECT_TRUE(loaded(loader.get(bundle.id, {bundle.file})));
-  loader.forget(bundle.id);
-  EXPECT_EXIT(
-      {
-        limitMemory(8 << 20);
-        const auto result = loader.get(bundle.id, {bundle.file});
-        const auto* failure = std::get_if<LoadFailure>(&result);
-        std::_Exit(failure != nullptr && isNoMemory(failure->problems.at(0)) ? 0 : 1);
-      },
-      ::testing::ExitedWithCode(0), "");
 }
 
 TEST(SceneLoader, ForgetsTheLeastUsed) {
