@@ -153,6 +153,16 @@ def grids(folder):
     write(folder / "vdb", "cut", vdb[:4000])
 
 
+def environments(folder):
+    head = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\n\n-Y 4 +X 8\n"
+    dim, sun = b"\x80\x40\x20\x78", b"\x80\x80\x80\x90"
+    write(folder / "environment", "flat", head + dim * 9 + sun + dim * 22)
+    write(folder / "environment", "runs", head + (dim + b"\1\1\1\7") * 4)
+    row = b"\2\2\0\x08" + b"\x88\x80" + b"\x08" + bytes(range(8)) + b"\x84\x20\4    " + b"\x88\x81"
+    write(folder / "environment", "planes", head.replace(b"RADIANCE", b"RGBE") + row * 4)
+    write(folder / "environment", "cut", head + row)
+
+
 def messages(folder):
     """What the front and a worker tell each other."""
     texts = (
@@ -230,6 +240,7 @@ def main(folder, scenes, assets=None):
     answers(folder)
     replies(folder)
     grids(folder)
+    environments(folder)
     choices(folder)
     for target in sorted(folder.iterdir()):
         print(f"{target.name}: {len(list(target.iterdir()))} seeds")
