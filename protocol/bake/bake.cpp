@@ -12,6 +12,11 @@ FrameSpec bakedParts(const FrameSpec& spec) {
   parts.shadow = spec.shadow;
   parts.shadowLightPolicy = spec.shadowLightPolicy;
   parts.nodes = spec.nodes;
+  parts.environment = {.file = spec.environment.file,
+                       .sky = spec.environment.sky,
+                       .rotationDegrees = spec.environment.rotationDegrees,
+                       .intensity = spec.environment.intensity,
+                       .extractSun = spec.environment.extractSun};
   parts.scene = spec.scene;
   parts.materialVariant = spec.materialVariant;
   parts.animation = spec.animation;

@@ -135,7 +135,7 @@ double referenceRays(const FrameSpec& spec, const std::vector<Light>& lights) {
 std::vector<Light> settledLights(const FrameSpec& spec, const SceneCounts& scene, DeviceKind device) {
   std::vector<Light> own;
   for (const LightType type : scene.lights) own.push_back({.type = type});
-  std::vector<Light> lights = lightsOf(spec, own);
+  std::vector<Light> lights = lightsOf(spec, own, assumedSun(spec.environment));
   for (const int index : shadowingLights(lights, spec.shadowLightPolicy)) {
     Light& light = lights[static_cast<std::size_t>(index)];
     ShadowTechnique& technique = light.shadow->technique;

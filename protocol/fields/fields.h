@@ -59,6 +59,7 @@ struct Notes {
   std::size_t maxCount = std::numeric_limits<std::size_t>::max();
   bool distinct = false; ///< a list's elements all differ
   bool onlyTrue = false; ///< a switch that may be left out, but not be false
+  bool isTime = false;   ///< a text that readMoment (moment.h) reads: between keys of a sequence time passes evenly
 };
 
 template <class Owner, class MemberType>

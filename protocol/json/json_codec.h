@@ -41,7 +41,8 @@ Json problemSchema();
 
 /// A FrameSpec from a decoded query string, as strictly as decodeFrameSpec: keys are fields' paths
 /// ("camera.orbit.azimuthDegrees", "lights[0].intensity"; see base/json.h) in any order, values are JSON or bare
-/// words; short forms: sun=AZIMUTH,ELEVATION; view=NAME; format=png. Pointers name the query key.
+/// words; short forms: sun=AZIMUTH,ELEVATION or LATITUDE,LONGITUDE TIME; view=NAME; format=png. Pointers name the query
+/// key.
 Result<FrameSpec> decodeFrameQuery(const std::vector<std::pair<std::string, std::string>>& query);
 
 /// The page as toJson writes it; nothing = it is no page.

@@ -36,19 +36,24 @@ std::optional<JsonNode> valueOf(const std::string& text, ProblemList& problems) 
   return std::nullopt;
 }
 
-/// "AZIMUTH,ELEVATION" as the one light of the spec.
+/// "AZIMUTH,ELEVATION" or "LATITUDE,LONGITUDE TIME" as the one light of the spec.
 std::optional<JsonNode> sunOf(const std::string& text, ProblemList& problems) {
-  const std::vector<std::string> angles = split(text, ',');
+  const std::size_t space = text.find(' ');
+  const bool byTime = space != std::string::npos;
+  const std::vector<std::string> angles = split(text.substr(0, space), ',');
   if (angles.size() != 2) {
-    problems.add(invalidValue("", "sun is two numbers with a comma between them.", "AZIMUTH,ELEVATION in degrees",
+    problems.add(invalidValue("", "sun is two numbers with a comma between them.",
+                              "AZIMUTH,ELEVATION in degrees, or LATITUDE,LONGITUDE in degrees, a space, and a time",
                               shortened(asUtf8(text), 60)));
     return std::nullopt;
   }
-  std::optional<JsonNode> azimuth = valueOf(angles[0], problems);
-  std::optional<JsonNode> elevation = valueOf(angles[1], problems);
-  if (!azimuth || !elevation) return std::nullopt;
-  JsonNode sun = objectOf("azimuthDegrees", std::move(*azimuth));
-  std::get<JsonNode::Object>(sun.value).push_back({"elevationDegrees", std::move(*elevation)});
+  std::optional<JsonNode> first = valueOf(angles[0], problems);
+  std::optional<JsonNode> second = valueOf(angles[1], problems);
+  if (!first || !second) return std::nullopt;
+  JsonNode sun = objectOf(byTime ? "latitudeDegrees" : "azimuthDegrees", std::move(*first));
+  auto& fields = std::get<JsonNode::Object>(sun.value);
+  fields.push_back({byTime ? "longitudeDegrees" : "elevationDegrees", std::move(*second)});
+  if (byTime) fields.push_back({"time", JsonNode{asUtf8(text.substr(space + 1))}});
   JsonNode lights{JsonNode::Array{}};
   std::get<JsonNode::Array>(lights.value).push_back(objectOf("sun", std::move(sun)));
   return lights;

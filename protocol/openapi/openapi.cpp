@@ -99,7 +99,7 @@ Json queryParameters() {
     }
     parameters.push_back(std::move(parameter));
   };
-  add("sun", "AZIMUTH,ELEVATION in degrees: one directional light; short for lights.",
+  add("sun", "AZIMUTH,ELEVATION in degrees, or LATITUDE,LONGITUDE TIME: one directional light; short for lights.",
       {{"type", "string"}, {"pattern", "^[^,]+,[^,]+$"}, {"examples", {"135,40"}}});
   add("lights", "The lights.", {{"type", "array"}, {"items", reference("schemas/Light")}});
   for (const FieldEntry& field : frameFields()) {

@@ -49,9 +49,9 @@ struct ErrorMetrics {
   std::optional<PredictedError> predicted{};
 };
 
-/// One stage's time. Names and order: queue load upload bake volume survey plan shadow shade predict reference readback
-/// encode. `predict` is there with debug.predictEdges, `reference` where a view compares a shadow with rays, `queue` on
-/// a server.
+/// One stage's time. Names and order: queue load upload bake environment volume survey plan shadow shade predict
+/// reference readback encode. `predict` is there with debug.predictEdges, `reference` where a view compares a shadow
+/// with rays, `queue` on a server.
 struct StageTime {
   std::string stage{};
   double milliseconds = 0;
@@ -97,6 +97,21 @@ struct VolumeReport {
   std::array<int, 3> lightSize{};
   std::uint64_t lightBytes = 0;
   double lightMilliseconds = 0;
+};
+
+/// Directions are of the world: rotation and intensity are applied.
+struct SunReport {
+  std::array<double, 3> towards{};
+  double angularDiameterDegrees = 0;
+  std::array<double, 3> color{};
+  double lux = 0;
+};
+
+struct EnvironmentReport {
+  int width = 0;
+  int height = 0;
+  double meanRadiance = 0;
+  std::optional<SunReport> sun{};
 };
 
 /// What technique auto chose for a light, and why. The estimates are of two cores without a GPU, and of a GPU beside
@@ -177,6 +192,7 @@ struct FrameReport {
   std::array<int, 2> atlasSize{};
   std::vector<LightReport> lights{};
   std::vector<VolumeReport> volumes{};
+  std::optional<EnvironmentReport> environment{};
   std::optional<PredictedError> predictedError{};
   std::optional<ErrorMetrics> error{};
   std::optional<QualityReport> quality{};
@@ -195,6 +211,7 @@ struct PlanReport {
   std::array<double, 2> depthRange{};
   std::array<int, 2> atlasSize{};
   std::vector<LightReport> lights{};
+  std::optional<EnvironmentReport> environment{};
   std::optional<PredictedError> predictedError{};
   std::vector<std::string> warnings{};
 };

@@ -52,6 +52,7 @@ struct MemorySummary {
   std::uint64_t indices = 0;
   std::uint64_t images = 0;
   std::uint64_t volumes = 0;
+  std::uint64_t environments = 0;
   std::uint64_t deformation = 0;
   std::uint64_t animations = 0;
   std::uint64_t structure = 0;
@@ -88,6 +89,7 @@ struct SceneSummary {
   std::vector<AnimationSummary> animations{};
   std::vector<std::string> materialVariants{};
   std::vector<std::string> volumeFiles{};
+  std::vector<std::string> environmentFiles{};
   std::vector<std::string> extensionsUsed{};
   std::vector<std::string> extensionsIgnored{};
   std::vector<std::string> warnings{};

@@ -30,6 +30,8 @@ inline constexpr auto kRows<MemorySummary> = replyRows(
     field<&MemorySummary::images>("Images, as if all were decoded; each is when a frame first needs it.",
                                   {.unit = "bytes"}),
     field<&MemorySummary::volumes>("Files of volumes, as they were uploaded.", {.unit = "bytes"}),
+    field<&MemorySummary::environments>("Files of environments, as they were uploaded and as if all were read.",
+                                        {.unit = "bytes"}),
     field<&MemorySummary::deformation>("Data from which skinned and morphed meshes are posed.", {.unit = "bytes"}),
     field<&MemorySummary::animations>("Keyframes, and what else is needed to pose the scene.", {.unit = "bytes"}),
     field<&MemorySummary::structure>("Nodes, instances, cameras, lights and materials.", {.unit = "bytes"}));
@@ -64,6 +66,8 @@ inline constexpr auto kRows<SceneSummary> = replyRows(
     field<&SceneSummary::animations>("The file's animations, in the order of their indices."),
     field<&SceneSummary::materialVariants>("Names of the file's material variants, for `materialVariant`."),
     field<&SceneSummary::volumeFiles>("Names of the upload's .npy and .vdb files, which a frame's `volumes` may show."),
+    field<&SceneSummary::environmentFiles>(
+        "Names of the upload's .hdr and .exr files, which a frame's `environment` may be."),
     field<&SceneSummary::extensionsUsed>("glTF extensions that the file names."),
     field<&SceneSummary::extensionsIgnored>("Those that are not supported; the warnings say how that shows."),
     field<&SceneSummary::warnings>("What the file holds that is ignored or drawn differently."));

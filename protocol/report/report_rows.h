@@ -79,6 +79,24 @@ inline constexpr auto kRows<VolumeReport> =
                                                       {.unit = "milliseconds"}));
 
 template <>
+inline constexpr auto kRows<SunReport> = replyRows(
+    "SunReport", "The sun of an environment, turned and multiplied as the request says.",
+    field<&SunReport::towards>("Direction towards it, of length 1."),
+    field<&SunReport::angularDiameterDegrees>("Angle that its disc spans.", {.unit = "degrees"}),
+    field<&SunReport::color>("Linear red, green and blue; the largest is 1."),
+    field<&SunReport::lux>("Its light on a surface that faces it, as luminance, in the unit of a light's intensity."));
+
+template <>
+inline constexpr auto kRows<EnvironmentReport> = replyRows(
+    "EnvironmentReport", "What was found in the environment.",
+    field<&EnvironmentReport::width>("Width of the file's picture; 0 = a computed sky.", {.unit = "texels"}),
+    field<&EnvironmentReport::height>("Its height; 0 = a computed sky.", {.unit = "texels"}),
+    field<&EnvironmentReport::meanRadiance>("Luminance of the file's picture, sun included: the mean over all "
+                                            "directions, in its own unit; 0 = a computed sky."),
+    field<&EnvironmentReport::sun>(
+        "What was taken out of it and is the last of the lights of `spec`; absent = no sun was found or looked for."));
+
+template <>
 inline constexpr auto kRows<TechniqueChoice> =
     replyRows("TechniqueChoice", "What technique auto chose for a light.",
               field<&TechniqueChoice::technique>(
@@ -156,6 +174,7 @@ inline constexpr auto kRows<FrameReport> = rows(
     field<&FrameReport::atlasSize>("Width and height of the atlas; 0 0 = no atlas.", {.unit = "texels"}),
     field<&FrameReport::lights>("Decisions for each light."),
     field<&FrameReport::volumes>("Grid and light of each volume."),
+    field<&FrameReport::environment>("What was found in the environment; absent = the studio lights the frame."),
     field<&FrameReport::predictedError>("How large the texels of all tiles appear; absent if no tile was drawn."),
     field<&FrameReport::error>(
         "The shadow of `debug.light` compared with rays; only with view reference, error or edgeDistance."),
@@ -163,7 +182,8 @@ inline constexpr auto kRows<FrameReport> = rows(
     field<&FrameReport::counts>("How much was drawn."), field<&FrameReport::memory>("Memory on the device."),
     field<&FrameReport::passes>("Times and counts of each pass, in the order of drawing."),
     field<&FrameReport::stages>(
-        "Time of each stage: queue, load, upload, bake, volume (with `volumes`), survey, plan, shadow, shade, predict "
+        "Time of each stage: queue, load, upload, bake, environment (with `environment.file` or `sky`), volume "
+        "(with `volumes`), survey, plan, shadow, shade, predict "
         "(with `debug.predictEdges`), reference (if a view asks for rays), readback, encode.",
         {.unit = "milliseconds"}),
     field<&FrameReport::warnings>("What differs from the file or the request, and what the picture is likely to lack: "
@@ -180,6 +200,7 @@ inline constexpr auto kRows<PlanReport> = rows(
                                    {.unit = "metres"}),
     field<&PlanReport::atlasSize>("Width and height that the atlas would have; 0 0 = no atlas.", {.unit = "texels"}),
     field<&PlanReport::lights>("What would be decided for each light, without times."),
+    field<&PlanReport::environment>("What was found in the environment; absent = the studio would light the frame."),
     field<&PlanReport::predictedError>(
         "Upper bound of how large the texels of all tiles would appear; absent if no tile would be drawn."),
     field<&PlanReport::warnings>("What the frame's report would warn of, as far as it is known without drawing."));

@@ -2,24 +2,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "protocol/base/text.h"
 #include "protocol/fields/value_type.h"
+#include "protocol/sun/moment.h"
 
 namespace gnomon {
 namespace {
 
 using Kind = ValueType::Kind;
 
-/// The type of a struct's member; null = there is no such member.
-const ValueType* memberOf(const StructType& type, std::string_view key) {
+/// What is known of a value. A null type = it is no field of a spec.
+struct Known {
+  const ValueType* type = nullptr;
+  bool isTime = false;
+};
+
+/// Of a struct's member.
+Known memberOf(const StructType& type, std::string_view key) {
   for (const FieldType& field : type.fields) {
-    if (!field.inlined && field.name == key) return field.type;
+    if (!field.inlined && field.name == key) return {field.type, field.notes->isTime};
     const ValueType* inner = field.type->kind == Kind::optional ? field.type->element : field.type;
     if (!field.inlined || inner->object == nullptr) continue;
-    if (const ValueType* found = memberOf(*inner->object, key)) return found;
+    if (const Known found = memberOf(*inner->object, key); found.type != nullptr) return found;
   }
-  return nullptr;
+  return {};
 }
 
 /// Without the optionals around it.
@@ -32,15 +40,20 @@ std::string shown(const Json& value) {
   return asciiExcerpt(jsonText(value));
 }
 
-/// `type`: of the value here; null = not a field of a spec.
-void check(const Json& a, const Json& b, const ValueType* type, const Place& place, ProblemList& problems) {
-  type = bare(type);
+std::optional<Moment> timeOf(const Json& value) {
+  if (!value.is_string()) return std::nullopt;
+  const auto moment = readMoment(value.get_ref<const std::string&>());
+  return moment ? std::optional(*moment) : std::nullopt;
+}
+
+void check(const Json& a, const Json& b, const Known& known, const Place& place, ProblemList& problems) {
+  const ValueType* type = bare(known.type);
   if (a.is_object() && b.is_object()) {
     const StructType* object = type != nullptr ? type->object : nullptr;
     for (const auto& [key, value] : a.items()) {
       const Place inner(place, key);
       if (b.contains(key)) {
-        check(value, b[key], object != nullptr ? memberOf(*object, key) : nullptr, inner, problems);
+        check(value, b[key], object != nullptr ? memberOf(*object, key) : Known{}, inner, problems);
       } else {
         problems.add(
             invalidValue(inner.pointer(), "The key before has this field, so this one needs it, too.", shown(value)));
@@ -59,15 +72,17 @@ void check(const Json& a, const Json& b, const ValueType* type, const Place& pla
   if (a.is_array() && b.is_array() && a.size() == b.size()) {
     const bool holds = type != nullptr && (type->kind == Kind::array || type->kind == Kind::list);
     for (std::size_t i = 0; i < a.size(); ++i) {
-      check(a[i], b[i], holds ? type->element : nullptr, Place(place, i), problems);
+      check(a[i], b[i], {holds ? type->element : nullptr}, Place(place, i), problems);
     }
     return;
   }
   if (a == b || (a.is_number() && b.is_number() && type != nullptr && type->kind == Kind::number)) return;
+  if (known.isTime && timeOf(a) && timeOf(b)) return;
   const bool numbers = a.is_number() && b.is_number();
   problems.add(invalidValue(place.pointer(),
-                            numbers ? "A whole number can't be interpolated; neighbouring keys must have the same."
-                                    : "Only numbers are interpolated; neighbouring keys must agree in all else.",
+                            numbers
+                                ? "A whole number can't be interpolated; neighbouring keys must have the same."
+                                : "Only numbers and times are interpolated; neighbouring keys must agree in all else.",
                             shown(a), shown(b)));
 }
 
@@ -80,6 +95,8 @@ Json between(const Json& a, const Json& b, double t) {
     if (a == b) return a;
     return std::lerp(a.get<double>(), b.get<double>(), t);
   }
+  // No other texts differ: checkNeighbours refuses them.
+  if (a.is_string() && a != b) return momentText(momentBetween(timeOf(a).value(), timeOf(b).value(), t));
   Json result = a;
   if (a.is_object()) {
     for (auto& [key, value] : result.items()) value = between(value, b[key], t);
@@ -90,7 +107,7 @@ Json between(const Json& a, const Json& b, double t) {
 }
 
 void checkNeighbours(const Json& a, const Json& b, const Place& place, ProblemList& problems) {
-  check(a, b, &typeOf<FrameSpec>(), place, problems);
+  check(a, b, {&typeOf<FrameSpec>()}, place, problems);
 }
 
 } // namespace gnomon

@@ -31,8 +31,8 @@ inline constexpr auto kRows<SequenceRequest> =
                                          {.minCount = 1, .maxCount = kLimits.maxSequenceFrames}),
          field<&SequenceRequest::keys>(
              "Patches as in `frames`, between which `count` frames lie at equal steps: the first frame is the first "
-             "key, the last frame the last key. In between, numbers at the same place of two neighbouring keys are "
-             "interpolated linearly; whole numbers and all else must be equal.",
+             "key, the last frame the last key. In between, numbers and times (of a sun) at the same place of two "
+             "neighbouring keys are interpolated linearly; whole numbers and all else must be equal.",
              {.minCount = 2, .maxCount = kLimits.maxSequenceKeys}),
          field<&SequenceRequest::count>("With `keys`: number of frames.",
                                         {.unit = "frames", .range = {2, double(kLimits.maxSequenceFrames)}}),

@@ -20,7 +20,7 @@ struct Sky {
 
 enum class EnvironmentBackground { none, environment, blurred };
 enum class EnvironmentShadows { none, rays };
-enum class SunExtraction { auto_, none };
+enum class SunExtraction { auto_, none, removed };
 
 /// At most one of `file` and `sky`; with neither, the studio of `ambient`.
 struct EnvironmentOptions {

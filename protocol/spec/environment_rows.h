@@ -25,6 +25,8 @@ template <>
 inline constexpr std::array kSpellings<SunExtraction>{
     spelling<SunExtraction::auto_>("a bright disc becomes a directional light with its color, size and shadow"),
     spelling<SunExtraction::none>("it stays in the picture"),
+    spelling<SunExtraction::removed>("it is taken out, and no light is added: what a report's `spec` says whose "
+                                     "`lights` has it"),
 };
 
 template <>
@@ -44,28 +46,29 @@ inline constexpr auto kRows<Sky> = rows(
 
 template <>
 inline constexpr auto kRows<EnvironmentOptions> =
-    rows("EnvironmentOptions",
-         "Light from all around: a picture of all directions, a computed sky, or with neither the studio of `ambient`.",
-         field<&EnvironmentOptions::file>("Name of a file of the upload: .hdr (Radiance) or .exr, twice as wide as "
-                                          "high, linear radiance by longitude and latitude.",
-                                          {.minCount = 1, .maxCount = 255}),
-         field<&EnvironmentOptions::sky>("A computed sky instead of a file."),
-         field<&EnvironmentOptions::rotationDegrees>(
-             "Turns the environment about the vertical axis, clockwise as seen from above. At 0 the middle of the "
-             "picture lies towards +X and its right half towards +Z.",
-             {.unit = "degrees", .range = kAzimuthRange}),
-         field<&EnvironmentOptions::intensity>(
-             "Its light is multiplied by this; absent = 1, and 3e-5 for a sky, so that the sun at noon is as bright as "
-             "a light's default intensity.",
-             {.range = kIntensityRange}),
-         field<&EnvironmentOptions::background>("What is shown where there is no surface."),
-         field<&EnvironmentOptions::shadows>("Whether the scene hides a part of its light. Rays take about as long as "
-                                             "a few soft shadows."),
-         field<&EnvironmentOptions::samples>("Rays a pixel that look for what is hidden; more are sent where they "
-                                             "disagree. Four times as many halve the noise and take four times as "
-                                             "long.",
-                                             {.range = {1, double(kLimits.maxRaySamples)}}),
-         field<&EnvironmentOptions::extractSun>("What becomes of the brightest disc of a file."))
+    rows(
+        "EnvironmentOptions",
+        "Light from all around: a picture of all directions, a computed sky, or with neither the studio of `ambient`.",
+        field<&EnvironmentOptions::file>("Name of a file of the upload: .hdr (Radiance) or .exr, twice as wide as "
+                                         "high, linear radiance by longitude and latitude.",
+                                         {.minCount = 1, .maxCount = 255}),
+        field<&EnvironmentOptions::sky>("A computed sky instead of a file."),
+        field<&EnvironmentOptions::rotationDegrees>(
+            "Turns the environment about the vertical axis, clockwise as seen from above. At 0 the middle of the "
+            "picture lies towards +X and its right half towards +Z.",
+            {.unit = "degrees", .range = kAzimuthRange}),
+        field<&EnvironmentOptions::intensity>(
+            "Its light is multiplied by this; absent = 1, and 3e-5 for a sky, so that the sun at noon is as bright as "
+            "a light's default intensity.",
+            {.range = kIntensityRange}),
+        field<&EnvironmentOptions::background>("What is shown where there is no surface."),
+        field<&EnvironmentOptions::shadows>("Whether the scene hides a part of its light. Rays take about as long as "
+                                            "a few soft shadows."),
+        field<&EnvironmentOptions::samples>("Rays a pixel that look for what is hidden; more are sent where they "
+                                            "disagree. Four times as many halve the noise and take four times as "
+                                            "long.",
+                                            {.range = {1, double(kLimits.maxRaySamples)}}),
+        field<&EnvironmentOptions::extractSun>("What becomes of the brightest disc of a file, or of the sun of a sky."))
         .withAlternatives({"file", "sky"});
 
 template <>

@@ -6,18 +6,23 @@
 #include <cstdint>
 
 #include "protocol/spec/limits.h"
+#include "protocol/spec/settled_sun.h"
 #include "protocol/spec/traits.h"
 
 namespace gnomon {
 namespace {
 
+bool hasSurroundings(const EnvironmentOptions& environment) {
+  return environment.file || environment.sky;
+}
+
 std::vector<Light> chosenLights(const FrameSpec& spec, std::span<const Light> ofScene) {
   if (spec.lights) return *spec.lights;
   std::vector<Light> lights(ofScene.begin(), ofScene.end());
   lights.resize(std::min(lights.size(), static_cast<std::size_t>(kLimits.maxLights)));
-  if (lights.empty()) {
+  if (lights.empty() && !hasSurroundings(spec.environment)) {
     Light sun;
-    sun.sun = Sun{};
+    sun.sun.emplace();
     lights.push_back(sun);
   }
   return lights;
@@ -25,14 +30,26 @@ std::vector<Light> chosenLights(const FrameSpec& spec, std::span<const Light> of
 
 } // namespace
 
-std::vector<Light> lightsOf(const FrameSpec& spec, std::span<const Light> ofScene) {
+std::vector<Light> lightsOf(const FrameSpec& spec, std::span<const Light> ofScene,
+                            std::span<const Light> ofEnvironment) {
   std::vector<Light> lights = chosenLights(spec, ofScene);
+  lights.insert(lights.end(), ofEnvironment.begin(), ofEnvironment.end());
   for (Light& light : lights) {
+    if (light.sun) {
+      if (isNight(*light.sun)) light.intensity = 0;
+      light.sun = settledSun(*light.sun);
+    }
     if (!light.color && !light.temperatureKelvin) light.color = Vec3{1, 1, 1};
     if (!light.shadow) light.shadow = spec.shadow;
     if (!light.shadow->size) light.shadow->size = traitsOf(light.type).usualSize;
   }
   return lights;
+}
+
+std::vector<Light> assumedSun(const EnvironmentOptions& environment) {
+  if (!hasSurroundings(environment) || environment.extractSun == SunExtraction::removed) return {};
+  if (environment.file && environment.extractSun == SunExtraction::none) return {};
+  return {Light{.direction = Vec3{0, -1, 0}, .angularDiameterDegrees = 0.53}};
 }
 
 bool shines(const Light& light) {

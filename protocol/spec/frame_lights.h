@@ -12,8 +12,14 @@
 namespace gnomon {
 
 /// The request's lights, else the first kLimits.maxLights of the scene's own, else one sun. What they leave open is
-/// set: their shadow is the frame's, a tile's size that of the light's type.
-std::vector<Light> lightsOf(const FrameSpec& spec, std::span<const Light> ofScene);
+/// set: their shadow is the frame's, a tile's size that of the light's type, a sun has azimuth and elevation. A sun by
+/// place and time has intensity 0 at night.
+/// Then come those of the environment; where it is a file or a sky, there is no other sun by default.
+std::vector<Light> lightsOf(const FrameSpec& spec, std::span<const Light> ofScene,
+                            std::span<const Light> ofEnvironment = {});
+
+/// What the environment of a frame may add to its lights, before it is read: one sun or none.
+std::vector<Light> assumedSun(const EnvironmentOptions& environment);
 
 /// Gives off light: else it has no shadow to be seen.
 bool shines(const Light& light);

@@ -109,9 +109,17 @@ struct NodeOptions {
 
 enum class LightType { directional, spot, point };
 
+inline constexpr double kUsualSunAzimuth = 135;  ///< degrees
+inline constexpr double kUsualSunElevation = 45; ///< degrees
+
+/// Azimuth and elevation, or all of latitude, longitude and time.
 struct Sun {
-  double azimuthDegrees = 135;
-  double elevationDegrees = 45;
+  std::optional<double> azimuthDegrees{};
+  std::optional<double> elevationDegrees{};
+  std::optional<double> latitudeDegrees{};
+  std::optional<double> longitudeDegrees{};
+  std::optional<std::string> time{};
+  std::optional<double> northDegrees{};
 
   bool operator==(const Sun&) const = default;
 };

@@ -102,11 +102,28 @@ inline constexpr auto kRows<Camera> =
 
 template <>
 inline constexpr auto kRows<Sun> = rows(
-    "Sun", "A direction given by the sun's place in the sky.",
-    field<&Sun::azimuthDegrees>("Direction of the sun, clockwise from north (-Z) as seen from above; east (+X) is 90.",
-                                {.unit = "degrees", .range = kAzimuthRange}),
-    field<&Sun::elevationDegrees>("Height of the sun above the horizon; negative = below it.",
-                                  {.unit = "degrees", .range = kElevationRange}));
+    "Sun",
+    "A direction given by the sun's place in the sky: by azimuth and elevation, or by a place on Earth and a time, "
+    "from "
+    "which these follow. The effective spec has azimuth and elevation.",
+    field<&Sun::azimuthDegrees>(
+        "Direction of the sun, clockwise from north (-Z) as seen from above; east (+X) is 90; absent = 135.",
+        {.unit = "degrees", .range = kAzimuthRange}),
+    field<&Sun::elevationDegrees>("Height of the sun above the horizon; negative = below it; absent = 45.",
+                                  {.unit = "degrees", .range = kElevationRange}),
+    field<&Sun::latitudeDegrees>("Latitude of the place, north of the equator positive; with `longitudeDegrees` and "
+                                 "`time`, instead of azimuth and elevation.",
+                                 {.unit = "degrees", .range = {-90, 90}}),
+    field<&Sun::longitudeDegrees>("Longitude of the place, east of Greenwich positive.",
+                                  {.unit = "degrees", .range = {-180, 180}}),
+    field<&Sun::time>("Date and time with a zone, as RFC 3339 has it, in the years 1900 to 2100: "
+                      "2026-06-21T17:00:00+02:00, or Z for UTC; seconds may be left out, leap seconds are refused. The "
+                      "sun is where it is seen at sea level: refraction by the air raises it. While it is below the "
+                      "horizon its light has intensity 0. In quotes where a query or a flag takes JSON.",
+                      {.maxCount = 64, .isTime = true}),
+    field<&Sun::northDegrees>("Where true north lies in the scene, clockwise from -Z as seen from above; with a place "
+                              "and a time; absent = 0.",
+                              {.unit = "degrees", .range = kAzimuthRange}));
 
 template <>
 inline constexpr auto kRows<Light> =

@@ -144,6 +144,7 @@ std::vector<BrokenRule> brokenRules(const FrameSpec& spec) {
   for (std::size_t i = 0; i < spec.volumes.size(); ++i) {
     appendVolumeRules(spec.volumes[i], "/volumes/" + std::to_string(i), broken);
   }
+  if (spec.environment.sky) appendSunRules(spec.environment.sky->sun, "/environment/sky/sun", broken);
   appendDebugRules(spec, broken);
   if (spec.quality) appendQualityRules(*spec.quality, broken);
   return broken;

@@ -41,6 +41,11 @@ void appendPlaceRules(const NodeOptions& node, const std::string& pointer, std::
 /// At "/lights/<index>", without the rules of its shadow.
 void appendLightRules(const Light& light, std::size_t index, std::vector<BrokenRule>& broken);
 
+// sun_rules.cpp
+
+/// Of one sun at `pointer`: a place and a time, or azimuth and elevation.
+void appendSunRules(const Sun& sun, const std::string& pointer, std::vector<BrokenRule>& broken);
+
 // shadow_rules.cpp
 
 /// Texels along a side of a cascade's tile.

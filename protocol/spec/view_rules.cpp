@@ -182,6 +182,7 @@ void appendLightRules(const Light& light, std::size_t index, std::vector<BrokenR
   };
 
   appendAlternatives(light, pointer, broken);
+  if (light.sun) appendSunRules(*light.sun, pointer + "/sun", broken);
   if (kind.parallel) {
     require(light.direction || light.sun, "direction", {pointer + "/direction", pointer + "/sun"},
             "A light of type " + type + " needs direction or sun.");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "protocol/spec/settled_sun.h"
 #include "protocol/spec/traits.h"
 #include "renderer/core/linear_algebra.h"
 
@@ -41,12 +42,16 @@ double radiusOf(const Light& light) {
   return std::tan(0.5 * glm::radians(light.angularDiameterDegrees.value_or(0.0)));
 }
 
+glm::dvec3 towardsSun(const Sun& sun) {
+  const Sun settled = settledSun(sun);
+  const double azimuth = glm::radians(*settled.azimuthDegrees);
+  const double elevation = glm::radians(*settled.elevationDegrees);
+  return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation), -std::cos(azimuth) * std::cos(elevation)};
+}
+
 glm::dvec3 directionOf(const Light& light) {
   if (light.sun) {
-    const double azimuth = glm::radians(light.sun->azimuthDegrees);
-    const double elevation = glm::radians(light.sun->elevationDegrees);
-    return -glm::dvec3(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
-                       -std::cos(azimuth) * std::cos(elevation));
+    return -towardsSun(*light.sun);
   }
   if (light.direction) {
     const glm::dvec3 direction = toVector(*light.direction);

@@ -6,6 +6,9 @@
 
 namespace gnomon {
 
+/// Unit length.
+glm::dvec3 towardsSun(const Sun& sun);
+
 /// Where the light travels, unit length, from `direction` or `sun`; for a point light it means nothing.
 glm::dvec3 directionOf(const Light& light);
 

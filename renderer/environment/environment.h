@@ -13,7 +13,7 @@ namespace gnomon {
 /// Made once from a file or a sky, shared by frames. Immutable.
 struct Environment {
   EnvironmentMap map;                 ///< without its sun
-  std::optional<FoundSun> sun{};      ///< what was taken out of the map
+  std::optional<FoundSun> sun{};      ///< a light of the frame, which settling adds
   PrefilteredEnvironment prefiltered; ///< of the map
 };
 

@@ -4,9 +4,9 @@
 
 namespace gnomon {
 
-Environment makeEnvironment(EnvironmentMap map, SunExtraction) {
+Environment makeEnvironment(EnvironmentMap map, const std::optional<FoundSun>& sun) {
   PrefilteredEnvironment made = prefiltered(map);
-  return {std::move(map), {}, std::move(made)};
+  return {std::move(map), sun, std::move(made)};
 }
 
 std::size_t bytesIn(const Environment& environment) {

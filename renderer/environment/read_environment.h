@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "protocol/base/result.h"
@@ -11,9 +12,13 @@ namespace gnomon {
 /// Whether the bytes begin as a file does that an environment may be read from: Radiance's or OpenEXR's.
 bool isEnvironmentFile(std::span<const std::uint8_t> file);
 
+/// Width and height, from its header alone; nothing where that is broken.
+std::optional<glm::ivec2> environmentSize(std::span<const std::uint8_t> file);
+
 /// Reads it, whatever the bytes are. Of an EXR: channels R, G and B, or Y, of its first layer that has them. Problems
 /// have no pointer: the file is damaged or of a kind that is not read, has sides that an environment may not have
-/// (environment_checks.h), or numbers that light can't have. Takes about six times what the map takes.
+/// (environment_checks.h), or numbers that light can't have. Takes twice
+/// what the map takes.
 Result<EnvironmentMap> readEnvironment(std::span<const std::uint8_t> file);
 
 } // namespace gnomon

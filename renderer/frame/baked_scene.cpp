@@ -22,6 +22,7 @@ std::string keyInStore(const Scene& scene, const ResolvedFrame& frame, int light
   FrameSpec spec = frame.spec;
   spec.lights = std::vector{shadowOf((*frame.spec.lights)[static_cast<std::size_t>(light)])};
   spec.shadow = Shadow{};
+  spec.environment = {}; // its sun is that light, if it is
   return id + "-" + bakeKey(id, spec);
 }
 

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
-#include "protocol/base/bytes.h"
 #include "protocol/base/lru.h"
 #include "protocol/base/result.h"
 #include "protocol/spec/environment_options.h"
 #include "renderer/environment/environment.h"
+#include "renderer/environment/environment_file.h"
 
 namespace gnomon {
 
@@ -16,18 +17,28 @@ class EnvironmentCache {
  public:
   explicit EnvironmentCache(std::size_t budgetBytes = std::size_t{1} << 28) : budgetBytes_(budgetBytes) {}
 
-  /// Read and made now if need be; problems have no pointer. The newest stays, whatever its size.
-  Result<std::shared_ptr<const Environment>> get(const std::shared_ptr<const Bytes>& file, SunExtraction extraction);
+  /// Made now if need be, from `split` where it was read just now; problems have no pointer. The newest stays,
+  /// whatever its size.
+  Result<std::shared_ptr<const Environment>> get(const std::shared_ptr<const EnvironmentFile>& file,
+                                                 SunExtraction extraction, std::optional<SplitEnvironment> split = {});
+
+  /// Computed now if need be. `sky`: its sun is settled.
+  std::shared_ptr<const Environment> get(const Sky& sky);
 
  private:
+  struct SkyEntry {
+    Sky sky;
+    std::shared_ptr<const Environment> environment;
+  };
   struct Entry {
-    std::weak_ptr<const Bytes> file;
-    SunExtraction extraction;
+    std::weak_ptr<const EnvironmentFile> file;
+    bool withSun; ///< in the picture
     std::shared_ptr<const Environment> environment;
   };
 
   std::size_t budgetBytes_;
   LruList<Entry> entries_;
+  LruList<SkyEntry> skies_;
 };
 
 } // namespace gnomon

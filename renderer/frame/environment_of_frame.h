@@ -7,10 +7,8 @@
 
 namespace gnomon {
 
-/// The environment of a frame, made now if need be. Problems at /environment/file where the file is broken.
-Result<FrameEnvironment> environmentOf(EnvironmentCache& cache, const SettledFrame& settled);
-
-/// A turn about +Y: directions of the map from directions of the world, which see it turned clockwise from above.
-glm::dmat3 mapFromWorld(double rotationDegrees);
+/// The environment of a frame, made now if need be, from the map that settling has read if it has. Problems at
+/// /environment/file.
+Result<FrameEnvironment> environmentOf(EnvironmentCache& cache, SettledFrame& settled);
 
 } // namespace gnomon

@@ -69,6 +69,7 @@ Result<PlanReport> planFrame(const ScenePtr& loaded, const FrameSpec& spec, cons
   report.lights = lightReports(frame, plans, errors, settled->layered, predictErrors(plans.wholeInput, plans.whole));
   addCasters(plan, frame, scene, geometry, report.lights);
   addCasters(plans.whole, frame, scene, geometry, report.lights, plan);
+  report.environment = settled->environment.report;
   report.predictedError = errors.all;
   report.warnings = loaded->summary.warnings;
   report.warnings.insert(report.warnings.end(), frame.warnings.begin(), frame.warnings.end());

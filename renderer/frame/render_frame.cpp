@@ -23,7 +23,7 @@ namespace {
 
 Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& loaded, const FrameSpec& spec,
                          TileUse tiles) {
-  const auto settled = settleFrame(loaded, spec, &device.info());
+  auto settled = settleFrame(loaded, spec, &device.info());
   if (!settled) return settled.problems();
   const ScenePtr& scene = settled->scene;
   const ResolvedFrame& resolved = settled->frame;
@@ -47,15 +47,15 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   baked = *std::move(found);
   if (!baked.empty()) drawing.endStage("bake");
 
-  auto volumes = volumesOf(caches.volumes, caches.traced, *settled);
-  if (!volumes) return volumes.problems();
-  made = *std::move(volumes);
-  if (!made.volumes.empty()) drawing.endStage("volume");
-
   auto around = environmentOf(caches.environments, *settled);
   if (!around) return around.problems();
   environment = *std::move(around);
   if (environment.environment) drawing.endStage("environment");
+
+  auto volumes = volumesOf(caches.volumes, caches.traced, *settled, environment);
+  if (!volumes) return volumes.problems();
+  made = *std::move(volumes);
+  if (!made.volumes.empty()) drawing.endStage("volume");
 
   auto seen = drawing.survey();
   if (!seen) return seen.problems();
@@ -133,6 +133,7 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   const auto warn = [&](std::vector<std::string> more) {
     std::move(more.begin(), more.end(), std::back_inserter(report.warnings));
   };
+  report.environment = settled->environment.report;
   report.warnings.insert(report.warnings.begin(), loaded->summary.warnings.begin(), loaded->summary.warnings.end());
   warn(damageOf(scene->images));
   warn(std::move(warnings));

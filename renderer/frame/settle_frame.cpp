@@ -131,21 +131,17 @@ Status checkVolumes(const Scene& loaded, const ResolvedFrame& frame) {
   return std::move(problems).take();
 }
 
-/// A problem where the upload does not have the file of the frame's environment.
-Status checkEnvironment(const Scene& loaded, const FrameSpec& spec) {
-  const std::optional<std::string>& file = spec.environment.file;
-  if (!file || loaded.environmentFiles.contains(*file)) return Done{};
-  return invalidValue("/environment/file", "The upload has no .hdr or .exr file of that name.", "", *file);
-}
-
 } // namespace
 
 Result<SettledFrame> settleFrame(const ScenePtr& loaded, const FrameSpec& spec, const RendererInfo* device) {
   ProblemList problems;
   const auto posed = collect(stagedScene(loaded, spec), problems);
   SettledFrame settled{loaded, posed.value_or(loaded), {}, {}, {}};
+  if (auto environment = collect(settleEnvironment(*loaded, spec.environment), problems)) {
+    settled.environment = *std::move(environment);
+  }
   ResolvedFrame& frame = settled.frame;
-  frame = resolveFrame(*settled.scene, spec, problems);
+  frame = resolveFrame(*settled.scene, spec, problems, settled.environment.lights);
   if (device != nullptr) {
     collect(checkDevice(spec, *device), problems);
     frame.spec.device = device->device;
@@ -162,7 +158,6 @@ Result<SettledFrame> settleFrame(const ScenePtr& loaded, const FrameSpec& spec, 
   }
   if (posed && frame.scene >= 0) collect(checkBaked(loaded, *posed, spec, frame), problems);
   collect(checkVolumes(*loaded, frame), problems);
-  collect(checkEnvironment(*loaded, frame.spec), problems);
   collect(checkLayers(frame, settled.layered), problems);
   if (!problems.empty()) return std::move(problems).take();
   if (settled.earlier) frame.spec.motionFrom->camera = settled.earlier->settledCamera;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "protocol/report/replies.h"
+#include "renderer/frame/environment_lights.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/motion_view.h"
 #include "renderer/resolve/resolve_frame.h"
@@ -17,6 +18,7 @@ struct SettledFrame {
   ResolvedFrame frame;
   std::optional<EarlierMoment> earlier; ///< what view motion compares with; there where the frame has that view
   std::vector<int> layered;             ///< layeredLights
+  SettledEnvironment environment{};
 
   const SceneView& view() const { return scene->scenes[static_cast<std::size_t>(frame.scene)]; }
 };

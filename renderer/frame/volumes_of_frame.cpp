@@ -153,7 +153,13 @@ std::vector<ArrivalAt> arrivalsOf(const ShiningLights& shining, const LightShare
   return arrivals;
 }
 
-constexpr double kMeanAround = 0.598; // of shared::irradianceAround, over all directions
+/// Radiance, over all directions.
+glm::dvec3 meanAround(const ResolvedFrame& frame, const FrameEnvironment& environment) {
+  if (environment.environment) return environment.environment->prefiltered.mean * environment.intensity;
+  constexpr double kOfStudio = 0.598; // of shared::irradianceAround
+  const double intensity = frame.spec.ambient.intensity * frame.spec.environment.intensity.value_or(1);
+  return toVector(frame.spec.ambient.color) * (intensity * kOfStudio);
+}
 
 /// One a volume of the spec; null = it is hidden.
 Result<std::vector<std::shared_ptr<const Medium>>> mediaOf(VolumeCache& cache, const Scene& scene,
@@ -220,7 +226,8 @@ VolumeReport reportOf(const Medium& medium, const VolumeLightStore::Found& found
 
 } // namespace
 
-Result<MadeVolumes> volumesOf(VolumeCache& cache, TracedSceneCache& traced, const SettledFrame& settled) {
+Result<MadeVolumes> volumesOf(VolumeCache& cache, TracedSceneCache& traced, const SettledFrame& settled,
+                              const FrameEnvironment& environment) {
   MadeVolumes made;
   const ResolvedFrame& frame = settled.frame;
   if (frame.spec.volumes.empty()) return made;
@@ -233,7 +240,7 @@ Result<MadeVolumes> volumesOf(VolumeCache& cache, TracedSceneCache& traced, cons
     volumes.media.push_back((*media)[i]);
     shown.push_back(i);
   }
-  volumes.ambient = toVector(frame.spec.ambient.color) * (frame.spec.ambient.intensity * kMeanAround);
+  volumes.ambient = meanAround(frame, environment);
   chooseLight(frame, volumes);
   made.reports.resize(media->size());
   for (std::size_t i = 0; i < shown.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "protocol/report/frame_report.h"
+#include "renderer/environment/environment.h"
 #include "renderer/frame/settle_frame.h"
 #include "renderer/frame/traced_scene_cache.h"
 #include "renderer/frame/volume_cache.h"
@@ -17,6 +18,7 @@ struct MadeVolumes {
 
 /// The volumes of a frame with the light in them, made now if need be. Surfaces shade them by rays to the middle of
 /// each light, whatever its technique. A problem at /volumes/i/file where a file is broken.
-Result<MadeVolumes> volumesOf(VolumeCache& cache, TracedSceneCache& traced, const SettledFrame& settled);
+Result<MadeVolumes> volumesOf(VolumeCache& cache, TracedSceneCache& traced, const SettledFrame& settled,
+                              const FrameEnvironment& environment);
 
 } // namespace gnomon

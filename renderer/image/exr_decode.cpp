@@ -10,9 +10,11 @@
 #include <array>
 #include <cstring>
 #include <exception>
+#include <limits>
 #include <map>
 #include <new>
 #include <string_view>
+#include <utility>
 
 #include "renderer/image/image_codec.h"
 
@@ -132,9 +134,7 @@ std::vector<ExrLayer> readPart(Imf::MultiPartInputFile& file, int index, PartPla
   return std::move(plan.layers);
 }
 
-Result<std::vector<ExrLayer>> readParts(std::span<const std::uint8_t> bytes, int maxSide, std::int64_t maxValues) {
-  MemorySource source(bytes);
-  Imf::MultiPartInputFile file(source);
+Result<std::vector<ExrLayer>> readParts(Imf::MultiPartInputFile& file, int maxSide, std::int64_t maxValues) {
   std::vector<ExrLayer> layers;
   std::int64_t values = 0;
   for (int i = 0; i < file.parts(); ++i) {
@@ -161,6 +161,71 @@ Result<std::vector<ExrLayer>> readParts(std::span<const std::uint8_t> bytes, int
   return layers;
 }
 
+/// The colors of one part: the full names of its channels.
+struct ColorPart {
+  int part = 0;
+  std::array<std::int64_t, 2> size{};
+  std::array<std::string, 3> channels; ///< all the same where it is grey
+};
+
+Result<ColorPart> colorPart(const Imf::MultiPartInputFile& file, int maxSide) {
+  for (int i = 0; i < file.parts(); ++i) {
+    const Imf::Header& header = file.header(i);
+    if (header.hasType() && Imf::isDeepData(header.type())) continue;
+    const auto size = sizeOf(header, maxSide);
+    if (!size) return size.problems();
+    const auto plan = planOf(header, *size);
+    if (!plan) return plan.problems();
+    for (std::size_t layer = 0; layer < plan->layers.size(); ++layer) {
+      const auto nameOf = [&](const std::string& channel) {
+        const auto found = std::find_if(plan->places.begin(), plan->places.end(),
+                                        [&](const auto& place) { return place.second == std::pair(layer, channel); });
+        return found == plan->places.end() ? std::string() : found->first;
+      };
+      const std::string grey = nameOf("Y");
+      ColorPart colors{i, *size, {nameOf("R"), nameOf("G"), nameOf("B")}};
+      if (std::find(colors.channels.begin(), colors.channels.end(), "") == colors.channels.end()) return colors;
+      if (!grey.empty()) return ColorPart{i, *size, {grey, grey, grey}};
+    }
+  }
+  return exrProblem(ProblemCode::unsupportedFeature, "The EXR has no layer with colors.", "channels R, G and B, or Y");
+}
+
+Image readColors(Imf::MultiPartInputFile& file, const ColorPart& colors) {
+  Image image{static_cast<int>(colors.size[0]), static_cast<int>(colors.size[1]), {"R", "G", "B"}, {}};
+  std::vector<float> pixels(static_cast<std::size_t>(colors.size[0] * colors.size[1]) * 3);
+  Imf::InputPart part(file, colors.part);
+  const Imath::Box2i& window = part.header().dataWindow();
+  const bool grey = colors.channels[0] == colors.channels[1];
+  constexpr std::size_t kStep = 3 * sizeof(float);
+  Imf::FrameBuffer target;
+  for (std::size_t i = 0; i < (grey ? 1 : 3); ++i) {
+    target.insert(colors.channels[i], Imf::Slice::Make(Imf::FLOAT, pixels.data() + i, window, kStep,
+                                                       kStep * static_cast<std::size_t>(colors.size[0])));
+  }
+  part.setFrameBuffer(target);
+  part.readPixels(window.min.y, window.max.y);
+  for (std::size_t i = 0; grey && i < pixels.size(); i += 3) pixels[i + 1] = pixels[i + 2] = pixels[i];
+  image.pixels = std::move(pixels);
+  return image;
+}
+
+/// What `read` makes of the file; a problem instead of what OpenEXR throws.
+template <class Read>
+auto readExrFile(std::span<const std::uint8_t> bytes, const Read& read)
+    -> decltype(read(std::declval<Imf::MultiPartInputFile&>())) {
+  if (!isExr(bytes)) return exrProblem(ProblemCode::invalidValue, "This is no EXR.");
+  try {
+    MemorySource source(bytes);
+    Imf::MultiPartInputFile file(source);
+    return read(file);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    return exrProblem(ProblemCode::invalidValue, std::string("The EXR can't be read: ") + error.what() + ".");
+  }
+}
+
 } // namespace
 
 bool isExr(std::span<const std::uint8_t> file) {
@@ -168,14 +233,23 @@ bool isExr(std::span<const std::uint8_t> file) {
 }
 
 Result<std::vector<ExrLayer>> decodeExr(std::span<const std::uint8_t> file, int maxSide, std::int64_t maxValues) {
-  if (!isExr(file)) return exrProblem(ProblemCode::invalidValue, "This is no EXR.");
-  try {
-    return readParts(file, maxSide, maxValues);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    return exrProblem(ProblemCode::invalidValue, std::string("The EXR can't be read: ") + error.what() + ".");
-  }
+  return readExrFile(file, [&](Imf::MultiPartInputFile& parts) { return readParts(parts, maxSide, maxValues); });
+}
+
+Result<ImageSize> exrColorSize(std::span<const std::uint8_t> file) {
+  return readExrFile(file, [](const Imf::MultiPartInputFile& parts) -> Result<ImageSize> {
+    const auto colors = colorPart(parts, std::numeric_limits<int>::max());
+    if (!colors) return colors.problems();
+    return ImageSize{static_cast<int>(colors->size[0]), static_cast<int>(colors->size[1])};
+  });
+}
+
+Result<Image> decodeExrColor(std::span<const std::uint8_t> file, int maxSide) {
+  return readExrFile(file, [&](Imf::MultiPartInputFile& parts) -> Result<Image> {
+    const auto colors = colorPart(parts, maxSide);
+    if (!colors) return colors.problems();
+    return readColors(parts, *colors);
+  });
 }
 
 } // namespace gnomon

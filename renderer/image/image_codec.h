@@ -72,4 +72,11 @@ bool isExr(std::span<const std::uint8_t> file);
 /// part; two layers of one name; more than `maxSide` pixels a side or `maxValues` numbers in all.
 Result<std::vector<ExrLayer>> decodeExr(std::span<const std::uint8_t> file, int maxSide, std::int64_t maxValues);
 
+/// The size of the part that decodeExrColor reads, from the file's header alone.
+Result<ImageSize> exrColorSize(std::span<const std::uint8_t> file);
+
+/// Channels R, G and B as floats, or Y three times, of the first layer that has them, without its alpha; other channels
+/// are not read. Problems: as of decodeExr, and where no layer has colors.
+Result<Image> decodeExrColor(std::span<const std::uint8_t> file, int maxSide);
+
 } // namespace gnomon

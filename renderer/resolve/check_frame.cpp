@@ -12,7 +12,8 @@
 namespace gnomon {
 
 std::string shadowPlace(const FrameSpec& asked, int light) {
-  const bool own = asked.lights && (*asked.lights)[static_cast<std::size_t>(light)].shadow;
+  const auto index = static_cast<std::size_t>(light); // the environment's sun comes after those that were asked for
+  const bool own = asked.lights && index < asked.lights->size() && (*asked.lights)[index].shadow;
   return own ? "/lights/" + std::to_string(light) + "/shadow" : "/shadow";
 }
 

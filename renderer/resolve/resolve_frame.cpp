@@ -1,10 +1,13 @@
 #include "renderer/resolve/resolve_frame.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "protocol/base/text.h"
 #include "protocol/spec/frame_lights.h"
+#include "protocol/spec/limits.h"
+#include "protocol/spec/settled_sun.h"
 #include "renderer/core/collect.h"
 #include "renderer/resolve/check_frame.h"
 #include "renderer/resolve/framing.h"
@@ -14,6 +17,17 @@
 
 namespace gnomon {
 namespace {
+
+/// Of the suns by place and time that have set.
+void appendNightWarnings(const FrameSpec& asked, std::vector<std::string>& warnings) {
+  for (std::size_t i = 0; asked.lights && i < asked.lights->size(); ++i) {
+    const auto& sun = (*asked.lights)[i].sun;
+    if (!sun || !isNight(*sun)) continue;
+    warnings.push_back("Light " + std::to_string(i) + " gives no light: at its place and time the sun is " +
+                       std::to_string(std::llround(-*settledSun(*sun).elevationDegrees)) +
+                       " degrees below the horizon.");
+  }
+}
 
 std::string namesOf(const std::vector<std::string>& variants) {
   if (variants.empty()) return "the file has no material variants";
@@ -60,7 +74,8 @@ int resolveScene(const FrameSpec& spec, const Scene& scene, ProblemList& problem
   return isThere ? indexOf(scene, {index, variant}) : -1;
 }
 
-ResolvedFrame resolveFrame(const Scene& scene, const FrameSpec& spec, ProblemList& problems) {
+ResolvedFrame resolveFrame(const Scene& scene, const FrameSpec& spec, ProblemList& problems,
+                           std::span<const Light> ofEnvironment) {
   if (spec.quality) {
     problems.add({ProblemCode::invalidValue, "/quality",
                   "This call does not support quality targets; give settings instead.", "", ""});
@@ -70,11 +85,22 @@ ResolvedFrame resolveFrame(const Scene& scene, const FrameSpec& spec, ProblemLis
   if (nodes) frame.nodes = *std::move(nodes);
   const SceneView none;
   const SceneView& view = frame.scene < 0 ? none : scene.scenes[static_cast<std::size_t>(frame.scene)];
-  frame.spec.lights = lightsOf(spec, lightsOf(view));
-  if (!spec.lights && view.lights.size() > frame.spec.lights->size()) {
+  frame.spec.lights = lightsOf(spec, lightsOf(view), ofEnvironment);
+  const std::size_t own = frame.spec.lights->size() - ofEnvironment.size();
+  if (!spec.lights && view.lights.size() > own) {
     frame.warnings.push_back("The scene has " + std::to_string(view.lights.size()) + " lights; only the first " +
-                             std::to_string(frame.spec.lights->size()) + " light this frame.");
+                             std::to_string(own) + " light this frame.");
   }
+  if (!ofEnvironment.empty()) {
+    frame.spec.environment.extractSun = SunExtraction::removed; // asked for again, it would be there twice
+    const auto most = static_cast<std::size_t>(kLimits.maxLights);
+    if (frame.spec.lights->size() > most) {
+      problems.add({ProblemCode::tooLarge, "/lights", "With the sun of the environment there are too many lights.",
+                    std::to_string(most), std::to_string(frame.spec.lights->size())});
+    }
+  }
+  appendNightWarnings(spec, frame.warnings);
+  if (frame.spec.environment.sky) frame.spec.environment.sky->sun = settledSun(frame.spec.environment.sky->sun);
   if (frame.scene < 0) return frame;
   frame.spec.scene = spec.scene.value_or(scene.defaultScene);
   if (scene.ground && frame.spec.ground) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,8 +38,9 @@ int resolveScene(const FrameSpec& spec, const Scene& scene, ProblemList& problem
 
 /// Fills in what depends on the scene. The spec has passed protocol/validate. All that the scene refuses is added to
 /// `problems`; where that is anything, the frame says only what its lights are, and `scene` is -1 if it is the index
-/// that the file does not have.
-ResolvedFrame resolveFrame(const Scene& scene, const FrameSpec& spec, ProblemList& problems);
+/// that the file does not have. `ofEnvironment`: the sun that was found in the frame's environment, if any.
+ResolvedFrame resolveFrame(const Scene& scene, const FrameSpec& spec, ProblemList& problems,
+                           std::span<const Light> ofEnvironment = {});
 Result<ResolvedFrame> resolveFrame(const Scene& scene, const FrameSpec& spec);
 
 } // namespace gnomon

@@ -34,11 +34,11 @@ bool isEmpty(const BuiltMesh& mesh) {
 }
 
 /// Volumes and environments are named by frames, and not by the model: kept as they are, by their first bytes.
-template <class Is>
-std::map<std::string, std::shared_ptr<const Bytes>> filesThat(const SceneBundle& bundle, const Is& are) {
-  std::map<std::string, std::shared_ptr<const Bytes>> files;
+template <class Kept, class Is>
+std::map<std::string, std::shared_ptr<const Kept>> filesThat(const SceneBundle& bundle, const Is& are) {
+  std::map<std::string, std::shared_ptr<const Kept>> files;
   for (const auto& [name, file] : bundle.files) {
-    if (are(file)) files.emplace(name, std::make_shared<const Bytes>(file));
+    if (are(file)) files.emplace(name, std::make_shared<const Kept>(file));
   }
   return files;
 }
@@ -101,8 +101,9 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   if (findings.refused()) return findings.takeProblems();
 
   if (findings.violated()) return findings.takeProblems();
-  scene->grids = filesThat(bundle, [](const Bytes& file) { return gridFileKind(asText(file)).has_value(); });
-  scene->environmentFiles = filesThat(bundle, [](const Bytes& file) { return isEnvironmentFile(file); });
+  scene->grids = filesThat<Bytes>(bundle, [](const Bytes& file) { return gridFileKind(asText(file)).has_value(); });
+  scene->environmentFiles =
+      filesThat<EnvironmentFile>(bundle, [](const Bytes& file) { return isEnvironmentFile(file); });
   if (!scene->grids.empty()) scene->placedNodes = placedNodes(tree, tree.hidden);
   addGroundMesh(*scene);
   scene->defaultScene = std::max(model.scene, 0);

@@ -15,6 +15,7 @@
 #include "protocol/spec/scene_options.h"
 #include "renderer/core/aabb.h"
 #include "renderer/core/vectors.h"
+#include "renderer/environment/environment_file.h"
 #include "renderer/scene/scene_image.h"
 
 namespace gnomon {
@@ -230,7 +231,8 @@ struct Deformation;
 struct Motion;
 class PoseCache;
 
-/// A loaded glTF file, shared between threads: immutable but for `poses` and `images`, which lock themselves.
+/// A loaded glTF file, shared between threads: immutable but for `poses`, `images` and `environmentFiles`, which lock
+/// themselves.
 struct Scene {
   SharedVector<glm::vec3> positions;         ///< of all primitives
   SharedVector<VertexAttributes> attributes; ///< parallel to positions
@@ -241,8 +243,9 @@ struct Scene {
   std::vector<Material> materials;                           ///< at least one (the default material)
   SceneImages images;                                        ///< decoded when a frame needs them
   std::map<std::string, std::shared_ptr<const Bytes>> grids; ///< files of the bundle that hold volumes, by their names
-  std::map<std::string, std::shared_ptr<const Bytes>> environmentFiles; ///< those that are .hdr or .exr, by their names
-  std::vector<SceneNode> nodes;                                         ///< as the file numbers them
+  std::map<std::string, std::shared_ptr<const EnvironmentFile>>
+      environmentFiles;         ///< those that are .hdr or .exr, by their names
+  std::vector<SceneNode> nodes; ///< as the file numbers them
   std::vector<LeftOutCamera> leftOutCameras;
   std::vector<PlacedNode> placedNodes;            ///< parallel; empty where there are no grids
   std::shared_ptr<const Deformation> deformation; ///< of skins and morph targets; nullptr = nothing deforms

@@ -124,6 +124,7 @@ MemorySummary memoryOf(const Scene& scene) {
   memory.indices = bytesIn(scene.indices) + bytesIn(scene.welded);
   for (const auto& image : scene.images) memory.images += image->bytes();
   for (const auto& [name, file] : scene.grids) memory.volumes += file->size();
+  for (const auto& [name, file] : scene.environmentFiles) memory.environments += file->memory();
   if (scene.deformation) memory.deformation = bytesIn(*scene.deformation);
   memory.structure =
       bytesIn(scene.primitives) + bytesIn(scene.materials) + bytesIn(scene.nodes) + bytesIn(scene.placedNodes);
@@ -145,8 +146,8 @@ MemorySummary memoryOf(const Scene& scene) {
 }
 
 std::uint64_t bytesIn(const MemorySummary& memory) {
-  return memory.vertices + memory.indices + memory.images + memory.volumes + memory.deformation + memory.animations +
-         memory.structure;
+  return memory.vertices + memory.indices + memory.images + memory.volumes + memory.environments + memory.deformation +
+         memory.animations + memory.structure;
 }
 
 SceneSummary summarize(const gltf::Model& model, const SceneBundle& bundle, const Scene& scene) {
@@ -175,6 +176,7 @@ SceneSummary summarize(const gltf::Model& model, const SceneBundle& bundle, cons
   }
   summary.materialVariants = scene.variants;
   for (const auto& [name, file] : scene.grids) summary.volumeFiles.push_back(name);
+  for (const auto& [name, file] : scene.environmentFiles) summary.environmentFiles.push_back(name);
   summary.extensionsUsed = model.extensionsUsed;
   summary.extensionsIgnored = unsupportedOf(model.extensionsUsed);
   return summary;

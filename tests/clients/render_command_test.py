@@ -18,6 +18,21 @@ class Render(CommandLine):
         self.assertEqual((run.stdout, run.stderr), (b"", b""))
         self.assertEqual(os.listdir(self.folder), ["frame.png"])
 
+    def test_the_sun_stands_by_place_and_time(self):
+        self.render("--sun", "48.1,11.6 2026-06-21T17:00+02:00")
+        there = self.output.read_bytes()
+        sun = {"latitudeDegrees": 48.1, "longitudeDegrees": 11.6, "time": "2026-06-21T15:00:00Z"}
+        self.render("--set", "lights=" + json.dumps([{"sun": sun}]))
+        self.assertEqual(self.output.read_bytes(), there)
+        self.render("--sun", "48.1,11.6 2026-06-21T08:00+02:00")
+        self.assertNotEqual(self.output.read_bytes(), there)
+        night = self.render("--sun", "48.1,11.6 2026-06-21T23:30+02:00").stderr.decode()
+        self.assertRegex(night, "^gnomon: warning: Light 0 gives no light: [^\n]* 1[0-9] degrees below the horizon.\n$")
+        for text, said in (("48.1,11.6 noon", "--sun (/lights/0/sun/time)"),
+                           ("95,11.6 2026-06-21T17:00Z", "--sun (/lights/0/sun/latitudeDegrees)")):
+            run = gnomon("render", BOX, "-o", str(self.output), "--sun", text)
+            self.assert_ends(run, PROBLEM, said)
+
     def test_what_is_repaired_is_told_and_can_be_refused(self):
         longer = self.folder / "longer.glb"
         longer.write_bytes(Path(BOX).read_bytes() + b"past the end")

@@ -5,6 +5,7 @@
 
 #include "protocol/spec/field_rows.h"
 #include "protocol/spec/validate.h"
+#include "protocol/sun/moment.h"
 
 namespace gnomon {
 namespace {
@@ -208,12 +209,28 @@ void mend(Shadow& shadow, const Atlas& atlas) {
   }
 }
 
+void mend(Sun& sun) {
+  if (flip()) {
+    sun.latitudeDegrees.reset();
+    sun.longitudeDegrees.reset();
+    sun.time.reset();
+    sun.northDegrees.reset();
+    return;
+  }
+  sun.azimuthDegrees.reset();
+  sun.elevationDegrees.reset();
+  sun.latitudeDegrees = sun.latitudeDegrees.value_or(48.1);
+  sun.longitudeDegrees = sun.longitudeDegrees.value_or(11.6);
+  sun.time = momentText({*rc::gen::inRange<std::int64_t>(-2'208'000'000'000, 4'133'000'000'000), pick(-12, 14) * 60});
+}
+
 void mend(Light& light, const Atlas& atlas) {
   const Vec3 down{0.5, -1, 0.25};
   if (light.direction && lengthOf(*light.direction) < 1e-3) light.direction = down;
   if (light.type == LightType::directional) {
     keepOnly(pick(0, 1), light.direction, light.sun);
     if (!light.direction && !light.sun) light.sun.emplace();
+    if (light.sun) mend(*light.sun);
     light.position.reset();
     light.range.reset();
     light.radius.reset();
@@ -252,6 +269,7 @@ rc::Gen<FrameSpec> anySpec() {
     std::erase_if(spec.views, [&](View view) { return view == View::motion && !spec.motionFrom; });
     if (spec.views.empty()) spec.views = {View::color};
     for (VolumeOptions& volume : spec.volumes) mend(volume);
+    if (spec.environment.sky) mend(spec.environment.sky->sun);
     mend(spec.camera);
     mend(spec.shadow, spec.atlas);
     if (spec.lights) {

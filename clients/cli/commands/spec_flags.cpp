@@ -49,6 +49,18 @@ std::optional<std::string> askedFormat(const CLI::App& command, const SpecArgume
   return formatOf(output->results().back());
 }
 
+/// "AZIMUTH,ELEVATION" or "LATITUDE,LONGITUDE TIME".
+std::optional<Sun> sunOf(const std::string& text) {
+  const auto space = text.find(' ');
+  const auto numbers = parseNumbers(std::string_view(text).substr(0, space), 2, 2);
+  if (!numbers) return std::nullopt;
+  const double first = (*numbers)[0], second = (*numbers)[1];
+  if (space == std::string::npos) return Sun{.azimuthDegrees = first, .elevationDegrees = second};
+  return Sun{.latitudeDegrees = first,
+             .longitudeDegrees = second,
+             .time = std::string(trimmed(std::string_view(text).substr(space)))};
+}
+
 /// "Name: value", as a header of HTTP may be.
 std::optional<std::pair<std::string, std::string>> headerOf(const std::string& text) {
   const auto colon = text.find(':');
@@ -96,12 +108,15 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments, std::vector<st
       .add_option_function<std::string>(
           "--sun",
           [&arguments, refuse](const std::string& text) {
-            const auto sun = parseNumbers(text, 2, 2);
-            if (!sun) refuse("--sun", "needs AZIMUTH,ELEVATION in degrees, e.g. 135,40");
-            arguments.sun = {(*sun)[0], (*sun)[1]};
+            arguments.sun = sunOf(text);
+            if (arguments.sun) return;
+            refuse("--sun",
+                   "needs AZIMUTH,ELEVATION in degrees, e.g. 135,40, or 'LATITUDE,LONGITUDE TIME', e.g. "
+                   "'48.1,11.6 2026-06-21T17:00+02:00'");
           },
-          "Place of the sun: degrees clockwise from north (-Z), degrees above the horizon")
-      ->type_name("AZ,EL")
+          "Place of the sun: degrees clockwise from north (-Z), degrees above the horizon; or latitude and longitude "
+          "in degrees and a time with its zone, as '48.1,11.6 2026-06-21T17:00+02:00'")
+      ->type_name("AZ,EL | 'LAT,LON TIME'")
       ->group("Picture");
   const std::string cameraSays =
       "Use a camera of the scene, by its name, or its index among the scene's cameras, or node:INDEX";

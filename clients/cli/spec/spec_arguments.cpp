@@ -105,7 +105,7 @@ bool isDirectional(const Json& light) {
 }
 
 /// Gives the index of the light that is the sun now.
-std::size_t turnSun(Json& spec, const std::array<double, 2>& sun) {
+std::size_t turnSun(Json& spec, const Sun& sun) {
   Json& lights = spec["lights"];
   if (!lights.is_array()) lights = Json::array();
   auto light = std::find_if(lights.begin(), lights.end(), isDirectional);
@@ -114,7 +114,12 @@ std::size_t turnSun(Json& spec, const std::array<double, 2>& sun) {
     light = lights.end() - 1;
   }
   light->erase("direction");
-  (*light)["sun"] = {{"azimuthDegrees", sun[0]}, {"elevationDegrees", sun[1]}};
+  Json& place = (*light)["sun"] = Json::object();
+  if (sun.azimuthDegrees) place["azimuthDegrees"] = *sun.azimuthDegrees;
+  if (sun.elevationDegrees) place["elevationDegrees"] = *sun.elevationDegrees;
+  if (sun.latitudeDegrees) place["latitudeDegrees"] = *sun.latitudeDegrees;
+  if (sun.longitudeDegrees) place["longitudeDegrees"] = *sun.longitudeDegrees;
+  if (sun.time) place["time"] = *sun.time;
   return static_cast<std::size_t>(light - lights.begin());
 }
 

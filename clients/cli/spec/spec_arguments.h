@@ -32,7 +32,7 @@ struct SpecArguments {
   std::optional<int> height;                 ///< --height, --size
   std::optional<std::string> camera;         ///< --camera: its name, its index, or "node:" and its node's index
   std::optional<std::vector<double>> orbit;  ///< --orbit: azimuth, elevation, distance if a third
-  std::optional<std::array<double, 2>> sun;  ///< --sun: azimuth, elevation
+  std::optional<Sun> sun;                    ///< --sun: azimuth and elevation, or place and time
   std::vector<std::string> views;            ///< --view
   std::map<std::string, std::string> fields; ///< of kFieldFlags: the flag, and its text
   std::optional<std::string> device;         ///< --device

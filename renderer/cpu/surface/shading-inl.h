@@ -25,15 +25,20 @@ HWY_INLINE SurfacePoint pointOf(const Surface& surface) {
   return surfacePoint(surface.baseColor, surface.metallic, surface.roughness, surface.normal, surface.toEye);
 }
 
-/// What surfaces show of the surroundings. `arriving`: what the scene leaves of their light, as environmentReflected
-/// has it.
-HWY_INLINE Float3 reflectedSurroundings(const FrameScene& scene, const Surface& surface, const SurfacePoint& point,
-                                        const Float4& arriving) {
-  if (scene.environment == nullptr) return Float3(scene.frame.ambient) * ambientReflected(point);
+/// As environmentReflected has it. By itself, so that frames in the studio keep their registers.
+inline HWY_NOINLINE Float3 reflectedEnvironment(const FrameScene& scene, const Surface& surface,
+                                                const SurfacePoint& point, const Float4& arriving) {
   const Float3 reflected =
       environmentReflected(scene.environment, Float2(scene.frame.environmentTurn), point, surface.baseColor,
                            surface.metallic, surface.roughness, surface.receiver.normal, arriving);
   return reflected * scene.frame.environmentIntensity;
+}
+
+/// What surfaces show of the surroundings. `arriving`: what the scene leaves of their light.
+HWY_INLINE Float3 reflectedSurroundings(const FrameScene& scene, const Surface& surface, const SurfacePoint& point,
+                                        const Float4& arriving) {
+  if (scene.environment == nullptr) return Float3(scene.frame.ambient) * ambientReflected(point);
+  return reflectedEnvironment(scene, surface, point, arriving);
 }
 
 /// What one light adds to the lanes `asked`, all of which show a surface. `visibility(light, receiver, toLight,

@@ -12,11 +12,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::cpu::HWY_NAMESPACE {
 
+/// By itself, so that frames in the studio keep their registers.
+inline HWY_NOINLINE Float3 radianceOfEnvironment(const FrameScene& scene, const Float3& direction,
+                                                 const Float& roughness) {
+  const Float3 towards = inEnvironment(direction, Float2(scene.frame.environmentTurn));
+  return environmentRadiance(scene.environment, towards, roughness) * scene.frame.environmentIntensity;
+}
+
 /// Their radiance from world directions. `roughness`: perceptual, of the surface that shows it.
 HWY_INLINE Float3 radianceOfSurroundings(const FrameScene& scene, const Float3& direction, const Float& roughness) {
   if (scene.environment == nullptr) return Float3(scene.frame.ambient) * radianceAround(direction.y, roughness);
-  const Float3 towards = inEnvironment(direction, Float2(scene.frame.environmentTurn));
-  return environmentRadiance(scene.environment, towards, roughness) * scene.frame.environmentIntensity;
+  return radianceOfEnvironment(scene, direction, roughness);
 }
 
 /// Their irradiance over pi on what faces a world direction.

@@ -43,6 +43,16 @@ TEST(DecodeFrameQuery, HasShortForms) {
   EXPECT_EQ(spec->output.format, ImageFormat::exr);
 }
 
+TEST(DecodeFrameQuery, ASunStandsByPlaceAndTime) {
+  const Result<FrameSpec> spec = decodeFrameQuery({{"sun", "48.1,11.6 2026-06-21T17:00+02:00"}});
+  ASSERT_TRUE(spec);
+  EXPECT_EQ(spec->lights->at(0).sun,
+            (Sun{.latitudeDegrees = 48.1, .longitudeDegrees = 11.6, .time = "2026-06-21T17:00+02:00"}));
+  // A plus that is not escaped arrives as a space.
+  EXPECT_THAT(pointersOf(decodeFrameQuery({{"sun", "48.1,11.6 2026-06-21T17:00 02:00"}})), ElementsAre("sun"));
+  EXPECT_THAT(pointersOf(decodeFrameQuery({{"sun", "99,11.6 2026-06-21T17:00Z"}})), ElementsAre("sun"));
+}
+
 TEST(DecodeFrameQuery, ABareWordIsAString) {
   EXPECT_EQ(decodeFrameQuery({{"camera.node", "Camera 1"}})->camera.node, (std::variant<int, std::string>("Camera 1")));
   EXPECT_EQ(decodeFrameQuery({{"camera.node", "7"}})->camera.node, (std::variant<int, std::string>(7)));

@@ -62,5 +62,26 @@ RC_GTEST_PROP(BetweenKeys, StepsAreEqual, ()) {
   }
 }
 
+TEST(BetweenKeys, TimeOfASunPasses) {
+  const auto key = [](const char* time, const char* variant) {
+    return Json{{"lights", {{{"sun", {{"latitudeDegrees", 48.1}, {"longitudeDegrees", 11.6}, {"time", time}}}}}},
+                {"materialVariant", variant}};
+  };
+  const Json dawn = key("2026-06-21T05:00+02:00", "a");
+  const Json dusk = key("2026-06-21T21:00+02:00", "a");
+  ProblemList problems;
+  checkNeighbours(dawn, dusk, Place(), problems);
+  EXPECT_TRUE(problems.empty());
+  EXPECT_EQ(between(dawn, dusk, 0.25)["lights"][0]["sun"]["time"], "2026-06-21T09:00:00+02:00");
+
+  // Of other texts none passes, whatever it looks like, and a time that can't be read doesn't either.
+  checkNeighbours(key("2026-06-21T05:00Z", "2026-06-21T05:00Z"), key("2026-06-21T05:00Z", "2026-06-21T06:00Z"), Place(),
+                  problems);
+  checkNeighbours(key("dawn", "a"), key("2026-06-21T05:00Z", "a"), Place(), problems);
+  ASSERT_EQ(problems.problems().size(), 2u);
+  EXPECT_EQ(problems.problems()[0].pointer, "/materialVariant");
+  EXPECT_EQ(problems.problems()[1].pointer, "/lights/0/sun/time");
+}
+
 } // namespace
 } // namespace gnomon
