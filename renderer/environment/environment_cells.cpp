@@ -137,7 +137,7 @@ std::vector<CellLevel> cellLevels(const EnvironmentMap& map) {
 // that of its middle.
 glm::vec3 meanOverLobe(const std::vector<CellLevel>& levels, const glm::vec3& direction, float alpha) {
   constexpr float kShare = 0.4f;
-  constexpr float kWidest = 0.3f; // radians
+  constexpr float kWidestCell = 0.3f; // radians
   struct Asked {
     int level, x, y;
   };
@@ -155,7 +155,7 @@ glm::vec3 meanOverLobe(const std::vector<CellLevel>& levels, const glm::vec3& di
       const EnvironmentCell& cell = level.at(asked.x, asked.y);
       if (glm::dot(direction, cell.middle) < -cell.width) continue;
       const float near = kShare * (glm::length(cell.middle - direction) + lobeWidth);
-      if (asked.level == 0 || cell.width < std::min(near, kWidest)) {
+      if (asked.level == 0 || cell.width < std::min(near, kWidestCell)) {
         light += cell.flux * lobe(cell.brightest);
         all += cell.solidAngle * lobe(cell.middle);
         continue;

@@ -69,12 +69,8 @@ glm::vec3 between(const EnvironmentMap& map, const glm::dvec3& direction) {
 void addMirrored(const EnvironmentMap& map, const Square& square, std::vector<glm::vec4>& texels) {
   forEach(static_cast<std::size_t>(square.side), [&](std::size_t row) {
     for (int x = 0; x < square.side; ++x) {
-      glm::vec3 sum(0);
-      for (int i = 0; i < 4; ++i) {
-        const glm::dvec3 towards(square.direction(x + 0.25 + 0.5 * (i & 1), double(row) + 0.25 + 0.5 * (i >> 1)));
-        sum += between(map, towards);
-      }
-      texels[square.at(x, static_cast<int>(row))] = glm::vec4(sum * 0.25f, 1);
+      const glm::dvec3 towards(square.direction(x + 0.5, double(row) + 0.5));
+      texels[square.at(x, static_cast<int>(row))] = glm::vec4(between(map, towards), 1);
     }
   });
 }

@@ -242,6 +242,7 @@ void GlFrame::endStage(std::string name) {
 Result<FrameFacts> GlFrame::finish() {
   if (const Status clean = gl::checkErrors("rendering a frame"); !clean) return clean.problems();
   FrameFacts facts = factsOf({survey_, atlas_, drawn_, gpu_, shown_ ? shown_->views : std::span<const ViewRequest>{}});
+  if (inputs_.environment != nullptr) facts.memory.scene += inputs_.environment->bytes();
   facts.stages = clock_.take();
   return facts;
 }

@@ -10,13 +10,13 @@
 #define GNOMON_ENVIRONMENT_SQUARES (GNOMON_ENVIRONMENT_LEVELS + 1)
 
 // Texels of the atlas.
-#define GNOMON_ENVIRONMENT_WIDTH 514
-#define GNOMON_ENVIRONMENT_HEIGHT 772
+#define GNOMON_ENVIRONMENT_WIDTH 1026
+#define GNOMON_ENVIRONMENT_HEIGHT 1284
 
 // Of each square: the corner, without its border of one texel, and the side.
-#define GNOMON_ENVIRONMENT_PLACES                                                                                      \
-  vec3(1, 1, 512), vec3(1, 515, 256), vec3(259, 515, 128), vec3(389, 515, 96), vec3(389, 613, 64), vec3(389, 679, 48), \
-      vec3(455, 613, 32), vec3(455, 647, 24), vec3(259, 645, 126)
+#define GNOMON_ENVIRONMENT_PLACES                                                                       \
+  vec3(1, 1, 1024), vec3(1, 1027, 256), vec3(259, 1027, 128), vec3(389, 1027, 96), vec3(487, 1027, 64), \
+      vec3(553, 1027, 48), vec3(603, 1027, 32), vec3(637, 1027, 24), vec3(259, 1157, 126)
 
 #ifdef __cplusplus
 namespace gnomon::shared {

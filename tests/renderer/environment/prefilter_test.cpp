@@ -136,24 +136,24 @@ TEST(Prefilter, LookupsAreNearToTheSumAtAnyRoughness) {
 
 /// One step across an edge of the octahedron changes a lookup by no more than a step elsewhere may.
 TEST(Prefilter, NoSeamShowsAtTheEdgesOfTheOctahedron) {
-  const PrefilteredEnvironment made = prefiltered(noisyMap(512));
-  const float most = [&] {
-    float most = 0;
-    for (const glm::vec4& texel : made.texels) most = std::max(most, brightest(glm::vec3(texel)));
-    return most;
-  }();
+  EnvironmentMap map = noisyMap(512);
+  for (glm::vec3& texel : map.texels) texel = glm::min(texel, glm::vec3(1));
+  const PrefilteredEnvironment made = prefiltered(map);
   for (int i = 0; i < 2000; ++i) {
     const double turn = 2 * glm::pi<double>() * (i + 0.37) / 2000;
     const glm::dvec3 equator(std::cos(turn), std::sin(turn), 0);
     const glm::dvec3 meridian =
         i % 2 == 0 ? glm::dvec3(std::cos(turn), 0, std::sin(turn)) : glm::dvec3(0, std::cos(turn), std::sin(turn));
     const glm::dvec3 acrossMeridian = i % 2 == 0 ? glm::dvec3(0, 1e-5, 0) : glm::dvec3(1e-5, 0, 0);
-    for (const auto& [place, step] : {std::pair{equator, glm::dvec3(0, 0, 1e-5)}, {meridian, acrossMeridian}}) {
+    struct Edge {
+      glm::dvec3 place, step;
+    };
+    for (const Edge& edge : {Edge{equator, glm::dvec3(0, 0, 1e-5)}, Edge{meridian, acrossMeridian}}) {
       for (const float roughness : {0.0f, 0.143f, 0.5f, 1.0f}) {
         const auto at = [&](double side) {
-          return shared::environmentRadiance(made.texels.data(), glm::vec3(place + side * step), roughness);
+          return shared::environmentRadiance(made.texels.data(), glm::vec3(edge.place + side * edge.step), roughness);
         };
-        EXPECT_LT(brightest(glm::abs(at(1) - at(-1))), 0.02f * most) << turn << ' ' << roughness;
+        EXPECT_LT(brightest(glm::abs(at(1) - at(-1))), 0.02f) << turn << ' ' << roughness;
       }
     }
   }

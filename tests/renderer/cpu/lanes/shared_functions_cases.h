@@ -91,6 +91,16 @@ struct Octahedral {
   }
 };
 
+struct Environment {
+  template <class Columns>
+  static vec3 of(const Columns& in) {
+    const vec3 color = in.three(0) * 0.5f + vec3(0.5f);
+    return environmentReflected(cpu::wavyEnvironment(), vec2(Real(0.6f), Real(0.8f)), pointOf(in), color,
+                                share(in.one(3)), share(in.one(4)), normalize(in.three(11)),
+                                vec4(share(in.one(14)), Real(0.5f), Real(1.0f), share(in.one(15))));
+  }
+};
+
 struct ByTangent {
   template <class Columns>
   static vec3 of(const Columns& in) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <glm/glm.hpp>
 
 namespace gnomon::cpu {
 
@@ -11,13 +12,16 @@ inline constexpr std::size_t kSharedFunctionOutputs = 3;
 /// The cases of shared_functions_cases.h by lanes, in `sharedFunctionNames`' order. `rows`: a multiple of 16.
 void sharedFunctionByLanes(std::size_t which, std::size_t rows, const float* in, float* out);
 
-inline constexpr std::array sharedFunctionNames{"reflected", "ambient",    "directional", "spot",
-                                                "point",     "tone",       "caught",      "heat",
-                                                "glossy",    "octahedral", "by tangent",  "by steps"};
+/// An atlas of an environment: waves.
+const glm::vec4* wavyEnvironment();
+
+inline constexpr std::array sharedFunctionNames{"reflected",  "ambient",  "directional", "spot",   "point",
+                                                "tone",       "caught",   "heat",        "glossy", "octahedral",
+                                                "by tangent", "by steps", "environment"};
 
 /// The cases in that order, as a list of what they are made of.
 #define GNOMON_SHARED_FUNCTION_CASES                                                                                   \
   Reflected, Ambient, Arriving<GNOMON_DIRECTIONAL>, Arriving<GNOMON_SPOT>, Arriving<GNOMON_POINT>, Tone, Caught, Heat, \
-      Glossy, Octahedral, ByTangent, BySteps
+      Glossy, Octahedral, ByTangent, BySteps, Environment
 
 } // namespace gnomon::cpu

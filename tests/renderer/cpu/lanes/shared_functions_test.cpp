@@ -2,11 +2,26 @@
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 #include <gtest/gtest.h>
+#include <vector>
 
 #include "renderer/shaders/shared/functions.h"
 #include "tests/renderer/cpu/instruction_sets.h"
 #include "tests/renderer/cpu/lanes/shared_functions_kernels.h"
 #include "tests/renderer/cpu/number_table.h"
+
+const glm::vec4* gnomon::cpu::wavyEnvironment() {
+  static const std::vector<glm::vec4> texels = [] {
+    std::vector<glm::vec4> made;
+    for (int y = 0; y < GNOMON_ENVIRONMENT_HEIGHT; ++y) {
+      for (int x = 0; x < GNOMON_ENVIRONMENT_WIDTH; ++x) {
+        made.emplace_back(1 + std::sin(0.3f * float(x)), 1 + std::cos(0.2f * float(y)),
+                          1 + std::sin(0.1f * float(x + y)), 1);
+      }
+    }
+    return made;
+  }();
+  return texels.data();
+}
 
 namespace gnomon::shared {
 namespace {
