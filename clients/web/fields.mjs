@@ -240,6 +240,7 @@ export const kStageColors = {
   load: '#8d7bd6',
   upload: '#b06fc4',
   bake: '#8f7a4a',
+  environment: '#5fb3a1',
   volume: '#9aa7b8',
   survey: '#3fa7c9',
   plan: '#36c2ae',
