@@ -42,7 +42,7 @@ std::array<double, kFrameParts> timesOf(const FrameReport& report) {
     if (const auto part = partOf(stage.stage)) add(*part, stage.milliseconds);
   }
   for (const PassReport& pass : report.passes) {
-    if (pass.pass == "visibility") add(FramePart::visibility, pass.cpuMilliseconds);
+    if (pass.pass == "visibility" || pass.pass == "sky") add(FramePart::visibility, pass.cpuMilliseconds);
   }
   const double apart = std::max(times[static_cast<std::size_t>(FramePart::visibility)], 0.0);
   double& shade = times[static_cast<std::size_t>(FramePart::shade)];

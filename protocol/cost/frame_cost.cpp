@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "protocol/spec/debug_light.h"
 #include "protocol/spec/frame_lights.h"
 #include "protocol/spec/traits.h"
 
@@ -34,8 +35,11 @@ constexpr double kLitPixel = 4;         ///< for each light
 constexpr double kRayOfTexel = 40;      ///< of a light map
 constexpr double kVolumeTriangle = 400; ///< of a shadow volume
 constexpr double kReferenceRay = 90;
-constexpr double kMarchedPixel = 900; ///< through a volume of 64 voxels along each side
-constexpr double kVolumeStep = 16;    ///< of a ray towards a light, in each of the volumes
+constexpr double kSkyReference = 1024; ///< rays
+constexpr double kSkyPixel = 120;      ///< its point and the filter
+constexpr double kSkyRay = 4;          ///< times the binary logarithm of the triangles
+constexpr double kMarchedPixel = 900;  ///< through a volume of 64 voxels along each side
+constexpr double kVolumeStep = 16;     ///< of a ray towards a light, in each of the volumes
 constexpr double kPredictedPixel = 80;
 constexpr double kReadPixel = 3;
 constexpr double kPngPixel = 2.5;    ///< by ISA-L
@@ -98,6 +102,15 @@ void addLayer(const Light& light, const FrameSpec& spec, const SceneCounts& scen
   }
 }
 
+/// What rays find of what the scene hides of an environment: those of each pixel, and as many again where they
+/// disagree.
+double skyCost(const FrameSpec& spec, const SceneCounts& scene) {
+  const double rays = 2 * spec.environment.samples + 1;
+  double pixel = kSkyPixel + rays * kSkyRay * std::log2(2 + static_cast<double>(scene.triangles));
+  if (samplesOf(spec.antialiasing) > 1) pixel *= 1.2;
+  return pixelsOf(spec) * pixel;
+}
+
 double encodedPixel(const Output& output) {
   if (output.format != ImageFormat::png) return kEncodingCosts[static_cast<std::size_t>(output.format)].pixel;
   const double finer = output.pngBits == 16 ? kFinerPng : 1;
@@ -125,7 +138,7 @@ void addView(View view, const FrameSpec& spec, const std::vector<Light>& lights,
 /// Rays towards the light that debug views are about: as many as a comparison takes, or as its shadow asks for.
 double referenceRays(const FrameSpec& spec, const std::vector<Light>& lights) {
   constexpr int kLeast = 256;
-  const auto chosen = static_cast<std::size_t>(spec.debug.light.value_or(0));
+  const auto chosen = static_cast<std::size_t>(debugLightIndex(spec.debug).value_or(0));
   const Light& light = lights[std::min(chosen, lights.size() - 1)];
   return hasSize(light) ? std::max(kLeast, light.shadow->raySamples) : 1;
 }
@@ -157,6 +170,7 @@ FrameCost frameCost(const FrameSpec& spec, const SceneCounts& scene, DeviceKind 
   for (const int index : shadowingLights(lights, spec.shadowLightPolicy)) {
     addLayer(lights[static_cast<std::size_t>(index)], spec, scene, cost);
   }
+  if (spec.environment.shadows == EnvironmentShadows::rays) cost[FramePart::visibility] += skyCost(spec, scene);
   double lookups = 0;
   for (const int index : mappedLights(lights, spec)) {
     const Light& light = lights[static_cast<std::size_t>(index)];
@@ -164,8 +178,11 @@ FrameCost frameCost(const FrameSpec& spec, const SceneCounts& scene, DeviceKind 
     lookups += lookupOfPixel(light.shadow->filter);
   }
   for (const View view : spec.views) addView(view, spec, lights, lookups, cost);
-  if (!lights.empty() && shows([](const ViewTraits& view) { return view.source == ViewSource::rays; })) {
-    cost[FramePart::reference] = pixels * (2 + referenceRays(spec, lights)) * kReferenceRay;
+  if (shows([](const ViewTraits& view) { return view.source == ViewSource::rays; })) {
+    const double rays = showsEnvironment(spec.debug) ? kSkyReference
+                        : lights.empty()             ? 0
+                                                     : 2 + referenceRays(spec, lights);
+    cost[FramePart::reference] = pixels * rays * kReferenceRay;
   }
   if (spec.debug.predictEdges) cost[FramePart::predict] = pixels * kPredictedPixel;
   if (!spec.volumes.empty()) {

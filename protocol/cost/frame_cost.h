@@ -51,7 +51,7 @@ inline constexpr double kRaysPerMap = 2;
 SceneCounts sceneCounts(const SceneSummary& summary);
 
 /// Where a frame spends its time: the stages of a report, those that belong together as one. What `shade` of a report
-/// takes to find shadows sample by sample (pass `visibility`) is a part of its own here.
+/// takes to find shadows sample by sample (passes `visibility` and `sky`) is a part of its own here.
 enum class FramePart { fixed, bake, volume, survey, shadow, visibility, shade, predict, reference, readback, encode };
 
 inline constexpr std::size_t kFrameParts = static_cast<std::size_t>(FramePart::encode) + 1;

@@ -81,16 +81,18 @@ inline constexpr auto kRows<MotionFrom> = rows(
                               {.maxCount = kLimits.maxNodeOptions}));
 
 template <>
-inline constexpr auto kRows<Debug> =
-    rows("Debug", "What the debug views show.",
-         field<&Debug::light>("Index of the light that views of one light show; absent = the first light that casts a "
-                              "shadow in this frame, or else the first light.",
-                              {.range = {0, kLimits.maxLights - 1.0}}),
-         field<&Debug::tile>("Which tile of that light the view `tile` shows: a cascade or a face.",
-                             {.range = {0, kLimits.maxCascades - 1.0}}),
-         field<&Debug::predictEdges>(
-             "True = the report estimates, without rays, how far the edges of this light's shadow map are from their "
-             "true place (`predictedError.edgeDisplacement`). Costs about as much as shading twice."));
+inline constexpr auto kRows<Debug> = rows(
+    "Debug", "What the debug views show.",
+    field<&Debug::light>(
+        "Index of the light that views of one light show, or \"environment\": views shadow, reference and error then "
+        "show the share of its diffuse light that arrives, by luminance; absent = the first light that casts a "
+        "shadow in this frame, or else the first light.",
+        {.range = {0, kLimits.maxLights - 1.0}, .minCount = 1, .maxCount = 11}),
+    field<&Debug::tile>("Which tile of that light the view `tile` shows: a cascade or a face.",
+                        {.range = {0, kLimits.maxCascades - 1.0}}),
+    field<&Debug::predictEdges>(
+        "True = the report estimates, without rays, how far the edges of this light's shadow map are from their "
+        "true place (`predictedError.edgeDisplacement`). Costs about as much as shading twice."));
 
 template <>
 inline constexpr auto kRows<FrameSpec> = rows(

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "protocol/spec/environment_options.h"
@@ -44,7 +45,7 @@ struct MotionFrom {
 };
 
 struct Debug {
-  std::optional<int> light{};
+  std::optional<std::variant<int, std::string>> light{}; ///< an index, or "environment"
   int tile = 0;
   bool predictEdges = false;
 

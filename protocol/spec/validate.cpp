@@ -4,6 +4,7 @@
 #include <string>
 
 #include "protocol/fields/field_checks.h"
+#include "protocol/spec/debug_light.h"
 #include "protocol/spec/limits.h"
 
 namespace gnomon {
@@ -103,14 +104,27 @@ void appendVolumeRules(const VolumeOptions& volume, const std::string& pointer, 
   }
 }
 
+void appendEnvironmentViews(const FrameSpec& spec, std::vector<BrokenRule>& broken) {
+  if (std::get<std::string>(*spec.debug.light) != kEnvironmentName) {
+    broken.push_back({invalidValue("/debug/light", "Debug views show a light, by its index, or the environment.",
+                                   "an index | environment", std::get<std::string>(*spec.debug.light)),
+                      {"/debug/light"}});
+  } else if (spec.environment.shadows != EnvironmentShadows::rays) {
+    broken.push_back({invalidValue("/debug/light", "The environment has no shadow without environment.shadows rays.",
+                                   "environment.shadows rays", kEnvironmentName),
+                      {"/debug/light", "/environment/shadows"}});
+  }
+}
+
 void appendDebugRules(const FrameSpec& spec, std::vector<BrokenRule>& broken) {
-  if (!spec.debug.light || !spec.lights) return;
+  if (showsEnvironment(spec.debug)) appendEnvironmentViews(spec, broken);
+  const auto light = debugLightIndex(spec.debug);
+  if (!light || !spec.lights) return;
   const int count = static_cast<int>(spec.lights->size());
-  if (*spec.debug.light < count) return;
-  broken.push_back(
-      {invalidValue("/debug/light", "The frame has no light of that index.",
-                    count == 0 ? "no lights" : "0.." + std::to_string(count - 1), std::to_string(*spec.debug.light)),
-       {"/lights"}});
+  if (*light < count) return;
+  broken.push_back({invalidValue("/debug/light", "The frame has no light of that index.",
+                                 count == 0 ? "no lights" : "0.." + std::to_string(count - 1), std::to_string(*light)),
+                    {"/lights"}});
 }
 
 void appendQualityRules(const Quality& quality, std::vector<BrokenRule>& broken) {

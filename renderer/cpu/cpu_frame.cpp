@@ -230,7 +230,7 @@ Status CpuFrame::showOne(const ShowInput& input, const ViewRequest& request) {
   if (traits.shadowed) {
     if (const Status there = needLayers(samples); !there) return there.problems();
   }
-  const bool sky = showsSkyShadow(work_, request);
+  const bool sky = showsSkyShadow(work_, request, input.debugLight);
   if (sky) {
     if (const Status there = needSky(samples); !there) return there.problems();
   }

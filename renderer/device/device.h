@@ -87,7 +87,7 @@ struct ShowInput {
   const ShadowPlan& plan;
   std::span<const LitLight> lights{};          ///< the frame's
   std::span<const std::uint32_t> lightLists{}; ///< lightLists; empty = every light is tried at every pixel
-  int debugLight = -1;                         ///< what views of one light show; -1 = there is none
+  int debugLight = -1;                         ///< what views of one light show; -1 = there is none; kEnvironmentLight
   const PlannedLight* planned = nullptr;       ///< of the plan: the same; null where it has no map
   const ShadowTile* tile = nullptr;            ///< of the plan: what view `tile` shows
   std::span<const ViewRequest> views{};

@@ -20,6 +20,7 @@ namespace {
 using Rgb = std::array<std::uint8_t, 3>;
 
 constexpr int kReferenceSamples = 256; ///< rays a pixel towards a light that has a size, at least
+constexpr int kSkySamples = 1024;      ///< to the environment, at least
 constexpr Rgb kFalseShadow{255, 30, 30};
 constexpr Rgb kFalseLight{40, 110, 255};
 constexpr float kFarthest = 16; ///< pixels at the end of the heat map
@@ -113,7 +114,7 @@ bool showsTriangles(View view) {
 } // namespace
 
 Result<MeasuredShadow> measureShadow(const ResolvedFrame& frame, const TracedScene& traced, int light,
-                                     std::vector<float> shown) {
+                                     const FrameEnvironment& environment, std::vector<float> shown) {
   const FrameSpec& spec = frame.spec;
   std::vector<int> lights;
   int samples = kReferenceSamples;
@@ -122,9 +123,11 @@ Result<MeasuredShadow> measureShadow(const ResolvedFrame& frame, const TracedSce
     samples = std::max(samples, (*spec.lights)[static_cast<std::size_t>(light)].shadow->raySamples);
   }
   const TraceInput input{traced, frame.view, spec.width, spec.height, *spec.lights, frame.nodes};
-  auto truth = traceReference(input, lights, samples);
+  auto truth = light == kEnvironmentLight
+                   ? traceReference(input, skyLightOf(&environment), std::max(kSkySamples, spec.environment.samples))
+                   : traceReference(input, lights, samples);
   if (!truth) return truth.problems();
-  const auto errors = measureErrors(*truth, std::span(&shown, lights.size()));
+  const auto errors = measureErrors(*truth, std::span(&shown, truth->lights.size()));
   return MeasuredShadow{std::move(*truth), std::move(shown), errors};
 }
 

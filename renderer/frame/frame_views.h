@@ -23,9 +23,10 @@ struct MeasuredShadow {
   ErrorMetrics errors;      ///< without shimmer and predicted
 };
 
-/// Traces light `light` of a frame (-1 = it has none) and holds `shown` against it.
+/// Traces light `light` of a frame (-1 = it has none; kEnvironmentLight) and holds `shown` against it. `environment`:
+/// the frame's.
 Result<MeasuredShadow> measureShadow(const ResolvedFrame& frame, const TracedScene& traced, int light,
-                                     std::vector<float> shown);
+                                     const FrameEnvironment& environment, std::vector<float> shown);
 
 /// The pictures that a frame's views take: one for each view that a device can show, and, where a view compares a
 /// shadow with rays or edges are predicted, that shadow at full strength and a picture to paint on.

@@ -100,7 +100,7 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   if (views.needReference()) {
     const auto rays = tracedScene();
     if (!rays) return rays.problems();
-    auto compared = measureShadow(resolved, **rays, subject->light, views.fullShadow(drawing));
+    auto compared = measureShadow(resolved, **rays, subject->light, environment, views.fullShadow(drawing));
     if (!compared) return compared.problems();
     measured = std::move(*compared);
     if (predicted != nullptr) measured->errors.predicted = *predicted;

@@ -89,6 +89,18 @@ Status checkLayers(const ResolvedFrame& frame, const std::vector<int>& layered) 
   return checkVisibilityBytes(frame.spec.width, frame.spec.height, layerSamples(frame.spec), lights);
 }
 
+/// Nor does what rays find of its environment: four shares at each sample, and as much again while it is found.
+Status checkSkyLayers(const ResolvedFrame& frame, const std::vector<int>& layered) {
+  const FrameSpec& spec = frame.spec;
+  if (spec.environment.shadows == EnvironmentShadows::none) return Done{};
+  const std::size_t lights = layered.size() - lightsToBake(frame).size();
+  const std::size_t samples = layerSamples(spec);
+  const std::int64_t sky = visibilityBytes(spec.width, spec.height, samples + 2, samples == 0 ? 0 : 4);
+  return checkVisibilityBytes(
+      sky + visibilityBytes(spec.width, spec.height, samples, lights), "/environment/shadows",
+      "Shadows of an environment and of lights take too much memory in a picture of this size.");
+}
+
 /// Lights whose visibility the frame may keep.
 std::size_t roomForLayers(const FrameSpec& spec) {
   const std::size_t samples = std::max<std::size_t>(layerSamples(spec), 1);
@@ -158,7 +170,8 @@ Result<SettledFrame> settleFrame(const ScenePtr& loaded, const FrameSpec& spec, 
   }
   if (posed && frame.scene >= 0) collect(checkBaked(loaded, *posed, spec, frame), problems);
   collect(checkVolumes(*loaded, frame), problems);
-  collect(checkLayers(frame, settled.layered), problems);
+  const Status layers = checkLayers(frame, settled.layered);
+  collect(layers ? checkSkyLayers(frame, settled.layered) : layers, problems);
   if (!problems.empty()) return std::move(problems).take();
   if (settled.earlier) frame.spec.motionFrom->camera = settled.earlier->settledCamera;
   return settled;

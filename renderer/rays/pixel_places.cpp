@@ -6,10 +6,10 @@
 
 namespace gnomon {
 
-PixelPlaces::PixelPlaces(std::uint32_t rays) {
-  const std::uint32_t own = std::bit_ceil(rays);
-  for (std::uint32_t ray = 0; ray < rays; ++ray) {
-    const SquarePlace place = sequencePlace(ray);
+PixelPlaces::PixelPlaces(std::uint32_t together, std::uint32_t most) {
+  const std::uint32_t own = std::bit_ceil(together);
+  for (std::uint32_t ray = 0; ray < most; ++ray) {
+    const SquarePlace place = sequencePlace(ray % own + ray / own * own * static_cast<std::uint32_t>(shifts_.size()));
     places_.push_back({place.x, place.y});
   }
   for (std::uint32_t i = 0; i < shifts_.size(); ++i) {

@@ -6,13 +6,14 @@
 
 namespace gnomon {
 
-/// Places of the unit square for the rays of each pixel, in units of 2^-32. A pixel's are the first ones of Sobol's
-/// sequence, XORed with a shift of its own; there is one for each pixel of a square of 8 x 8, so that the rays of a
-/// square lie between each other, those of 2 x 2 and of 4 x 4 pixels, too (Keller and Heidrich, "Interleaved Sampling",
-/// 2001).
+/// Places of the unit square for the rays of each pixel, in units of 2^-32. Each pixel of a square of 8 x 8 has those
+/// of a block of Sobol's sequence: its rays are even over the square, and lie between those of the other pixels,
+/// already of 2 x 2 and of 4 x 4 pixels (Keller and Heidrich, "Interleaved Sampling", 2001). Later rays go between all
+/// of these.
 class PixelPlaces {
  public:
-  explicit PixelPlaces(std::uint32_t rays); ///< most of a pixel
+  /// `together`: how many rays each pixel sends at first; `most`: in all.
+  PixelPlaces(std::uint32_t together, std::uint32_t most);
 
   struct Place {
     std::uint32_t x, y;

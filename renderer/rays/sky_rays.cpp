@@ -6,6 +6,7 @@
 #include "renderer/core/instruction_sets.h"
 #include "renderer/core/linear_algebra.h"
 #include "renderer/rays/drawn_query.h"
+#include "renderer/rays/smooth_surface.h"
 #include "renderer/rays/tree.h"
 
 namespace gnomon {
@@ -69,6 +70,31 @@ TracedSky::TracedSky(const TraceInput& input)
     : state_(new State{input, skyCasters(input), sourceAround(), shadedInstances(input),
                        drawnView(sightOf(input), input.traced.tree().scale)}) {}
 TracedSky::~TracedSky() = default;
+
+bool TracedSky::receives(std::uint32_t instance) const {
+  return state_->instances[instance].receives;
+}
+
+glm::dvec3 TracedSky::shadingNormal(const SurfacePoint& point) const {
+  return gnomon::shadingNormal(state_->casters.tree, point);
+}
+
+void TracedSky::through(const SurfacePoint& point, std::span<const glm::dvec3> ways, std::span<float> shares) const {
+  const glm::vec3 start = startOf(state_->casters.tree, point);
+  RaysToLight rays;
+  std::size_t first = 0;
+  const auto trace = [&] {
+    const unsigned count = rays.count;
+    const std::array<float, kLanes> found = sharesThrough(state_->casters, rays);
+    std::copy_n(found.begin(), count, shares.begin() + static_cast<std::ptrdiff_t>(first));
+    first += count;
+  };
+  for (const glm::dvec3& way : ways) {
+    rays.add(state_->casters.tree, point, start, {way, HUGE_VAL});
+    if (rays.count == kLanes) trace();
+  }
+  trace();
+}
 
 struct SkyPacket::Starts {
   DrawnPlaces places;

@@ -32,6 +32,15 @@ class TracedSky {
   explicit TracedSky(const TraceInput& input);
   ~TracedSky();
 
+  bool receives(std::uint32_t instance) const; ///< whether it shows shadows
+
+  /// By which a picture shades a point, without a normal map; unit length. REQUIRES: a surface.
+  glm::dvec3 shadingNormal(const SurfacePoint& point) const;
+
+  /// The share of the light that comes to a point along each way, as doubles find it; on the calling thread. REQUIRES:
+  /// as many of each; ways of unit length that lead off the triangle's plane, to the eye's side.
+  void through(const SurfacePoint& point, std::span<const glm::dvec3> ways, std::span<float> shares) const;
+
   struct State; ///< for the files of this folder
   const State& state() const { return *state_; }
 

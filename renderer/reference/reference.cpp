@@ -7,6 +7,7 @@
 
 #include "protocol/base/elapsed.h"
 #include "renderer/rays/trace.h"
+#include "renderer/reference/environment_reference.h"
 
 namespace gnomon {
 namespace {
@@ -56,10 +57,10 @@ void traceLight(const TraceInput& input, std::span<const SurfacePoint> points, s
   light.blockerDistance.insert(light.blockerDistance.end(), distance.begin(), distance.end());
 }
 
-} // namespace
-
-Result<Reference> traceReference(const TraceInput& input, std::span<const int> lights, int samples,
-                                 const Progress& progress) {
+/// `trace(points, widths, light)` adds the next pixels to what is known of a light.
+template <class Trace>
+Result<Reference> tracedReference(const TraceInput& input, std::span<const int> lights, int samples,
+                                  const Progress& progress, const Trace& trace) {
   const auto start = std::chrono::steady_clock::now();
   Reference reference;
   reference.width = input.width;
@@ -79,13 +80,31 @@ Result<Reference> traceReference(const TraceInput& input, std::span<const int> l
     std::vector<float> widths(points.size());
     std::transform(points.begin(), points.end(), widths.begin(),
                    [&](const SurfacePoint& point) { return pixelWidth(input, point); });
-    for (LightReference& light : reference.lights) traceLight(input, points, widths, samples, light);
+    for (LightReference& light : reference.lights) trace(points, widths, light);
     reference.surface.insert(reference.surface.end(), points.begin(), points.end());
     reference.pixelWidth.insert(reference.pixelWidth.end(), widths.begin(), widths.end());
   }
   if (progress) progress(1);
   reference.milliseconds = millisecondsSince(start);
   return reference;
+}
+
+} // namespace
+
+Result<Reference> traceReference(const TraceInput& input, std::span<const int> lights, int samples,
+                                 const Progress& progress) {
+  return tracedReference(input, lights, samples, progress,
+                         [&](std::span<const SurfacePoint> points, std::span<const float> widths,
+                             LightReference& light) { traceLight(input, points, widths, samples, light); });
+}
+
+Result<Reference> traceReference(const TraceInput& input, const SkyLight& environment, int samples,
+                                 const Progress& progress) {
+  const TracedSky traced(input);
+  const int only[] = {kEnvironmentLight};
+  return tracedReference(input, only, samples, progress,
+                         [&](std::span<const SurfacePoint> points, std::span<const float> /*widths*/,
+                             LightReference& light) { traceEnvironment(traced, environment, points, samples, light); });
 }
 
 } // namespace gnomon

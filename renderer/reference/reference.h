@@ -2,7 +2,9 @@
 
 #include <vector>
 
+#include "protocol/spec/debug_light.h"
 #include "renderer/core/stop.h"
+#include "renderer/environment/frame_sampler.h"
 #include "renderer/rays/trace.h"
 
 namespace gnomon {
@@ -28,6 +30,11 @@ struct Reference {
 
 /// Traces a frame for `lights` (indices). A problem of code `unavailable` where `progress` asked to stop.
 Result<Reference> traceReference(const TraceInput& input, std::span<const int> lights, int samples,
+                                 const Progress& progress = {});
+
+/// Traces a frame for its environment, as one light of index kEnvironmentLight: the share of its diffuse light that
+/// arrives, by luminance. Which of its parts hides it is not found.
+Result<Reference> traceReference(const TraceInput& input, const SkyLight& environment, int samples,
                                  const Progress& progress = {});
 
 } // namespace gnomon

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "protocol/spec/debug_light.h"
 #include "renderer/core/collect.h"
 #include "renderer/resolve/check_frame.h"
 
@@ -21,7 +22,8 @@ const PlannedLight* plannedOf(const ShadowPlan& plan, int light) {
 
 /// debug.light, else the first that casts, else the first.
 int lightToShow(const FrameSpec& spec, const ShadowPlan& plan, std::span<const int> layeredLights) {
-  if (spec.debug.light) return *spec.debug.light;
+  if (showsEnvironment(spec.debug)) return kEnvironmentLight;
+  if (const auto light = debugLightIndex(spec.debug)) return *light;
   for (int light = 0; light < static_cast<int>(spec.lights->size()); ++light) {
     const PlannedLight* planned = plannedOf(plan, light);
     const bool layered = std::find(layeredLights.begin(), layeredLights.end(), light) != layeredLights.end();
@@ -43,7 +45,7 @@ Result<const ShadowTile*> tileToShow(const FrameSpec& spec, const ShadowPlan& pl
     if (!spec.debug.light) return noAtlas("tile");
     const std::string note = subject.planned == nullptr ? "" : ": " + subject.planned->note;
     return Problem{ProblemCode::invalidValue, "/debug/light", "This light casts no shadow in this frame" + note + ".",
-                   "", std::to_string(subject.light)};
+                   "", showsEnvironment(spec.debug) ? kEnvironmentName : std::to_string(subject.light)};
   }
   const PlannedLight& light = *subject.planned;
   if (spec.debug.tile >= light.tileCount) {
@@ -65,9 +67,10 @@ Result<const ShadowTile*> tileToShow(const FrameSpec& spec, const ShadowPlan& pl
 } // namespace
 
 Status checkDebugLight(const Debug& debug, std::size_t lightCount) {
-  if (!debug.light || static_cast<std::size_t>(*debug.light) < lightCount) return Done{};
+  const auto light = debugLightIndex(debug);
+  if (!light || static_cast<std::size_t>(*light) < lightCount) return Done{};
   return Problem{ProblemCode::invalidValue, "/debug/light", "The frame has no light of that index.",
-                 lightCount == 0 ? "no lights" : upTo(static_cast<int>(lightCount)), std::to_string(*debug.light)};
+                 lightCount == 0 ? "no lights" : upTo(static_cast<int>(lightCount)), std::to_string(*light)};
 }
 
 Result<DebugSubject> debugSubject(const FrameSpec& spec, const ShadowPlan& plan, std::span<const int> layeredLights) {

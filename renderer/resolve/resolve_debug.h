@@ -10,7 +10,7 @@ namespace gnomon {
 
 /// What a frame's debug views show, settled on its plan.
 struct DebugSubject {
-  int light = -1;                ///< index into the effective lights; -1 = the frame has none
+  int light = -1;                ///< index into the effective lights; -1 = the frame has none; kEnvironmentLight
   const PlannedLight* planned{}; ///< of the plan; null where the light asks for no map
   std::size_t index = 0;         ///< of `planned` among the plan's lights
   const ShadowTile* tile{};      ///< of the plan: debug.tile; null where no view shows it

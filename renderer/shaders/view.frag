@@ -252,7 +252,9 @@ vec4 data(Sample seen) {
   return vec4(glow.w == 1.0 ? glow.rgb : unpackedSurface(seen.bits).baseColor, 1.0);
 #else
   Receiver receiver = receiverOf(seen, unpackedSurface(seen.bits).face, 1u);
-#if defined(VIEW_SHADOW)
+#if defined(VIEW_SHADOW) && defined(SKY_SHADOW)
+  return vec4(vec3(luminance(skyShare(1u).rgb)), 1.0);
+#elif defined(VIEW_SHADOW)
   if (debugLight < 0) return vec4(1.0);
   return vec4(vec3(shadowVisibility(debugLight, receiver, towardsDebugLight(receiver), true)), 1.0);
 #elif defined(DEBUG_LIGHT)

@@ -60,7 +60,7 @@ std::optional<glm::u16vec4> meanAround(const PicturePoints& points, const OddSam
 /// Rays from samples, sixteen at a time.
 class SampleRays {
  public:
-  SampleRays(const PicturePoints& points, const SkyLight& sky, const TracedSky& traced, const PixelPlaces& places,
+  SampleRays(const PicturePoints& points, const SkyLight& sky, const TracedSky& traced, const SkyRayPlaces& places,
              std::uint32_t rays, UnfilledVector<glm::u16vec4>& values)
       : points_(points), sky_(sky), packet_(traced), places_(places), rays_(rays), values_(values) {}
 
@@ -93,7 +93,7 @@ class SampleRays {
   const PicturePoints& points_;
   const SkyLight& sky_;
   SkyPacket packet_;
-  const PixelPlaces& places_;
+  const SkyRayPlaces& places_;
   std::uint32_t rays_;
   UnfilledVector<glm::u16vec4>& values_;
   ShownSamples waiting_;
@@ -103,17 +103,17 @@ class SampleRays {
 } // namespace
 
 UnfilledVector<glm::u16vec4> sampleShares(const PicturePoints& points, const SkyLight& sky, const TracedSky& traced,
-                                          std::uint32_t rays, const UnfilledVector<glm::u16vec4>& even,
+                                          std::uint32_t few, const UnfilledVector<glm::u16vec4>& even,
                                           std::uint64_t& sent) {
   const SampleGrid& grid = points.grid();
   const std::size_t samples = grid.samples();
   if (samples == 1) return even;
   UnfilledVector<glm::u16vec4> values(even.size() * samples);
-  const PixelPlaces places(rays);
+  const SkyRayPlaces places(few);
   std::atomic<std::uint64_t> more = 0;
   forEachBlock(grid, [&](const Rect& block) {
     stopIfAsked();
-    SampleRays alone(points, sky, traced, places, rays, values);
+    SampleRays alone(points, sky, traced, places, 4 * few, values);
     forEachPixel(grid, block, [&](const glm::ivec2& pixel) {
       const std::uint32_t at = grid.numberOf(pixel);
       std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(at * samples), samples, even[at]);

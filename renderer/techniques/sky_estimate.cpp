@@ -65,7 +65,8 @@ GNOMON_FOR_EACH_INSTRUCTION_SET void aimByCosine(const SkyPlaces& places, const 
 /// Surfaces", 2007: GGX).
 GNOMON_FOR_EACH_INSTRUCTION_SET void aimByLobe(const SkyPlaces& places, const Squares& squares, SkyWays& ways) {
   for (std::size_t i = 0; i < kSkyCount; ++i) {
-    const float alpha = places.roughness[i] * places.roughness[i];
+    const float rough = places.roughness[i] * places.roughness[i];
+    const float alpha = rough < 1e-3f ? 1e-3f : rough;
     const glm::vec2 disc = discPlace(squares.x[i], squares.y[i]);
     const float u = disc.x * disc.x + disc.y * disc.y;
     const float room = 1 - u;
@@ -105,37 +106,41 @@ void aimByLight(const SkyLight& sky, std::size_t count, Squares& squares, SkyWay
   }
 }
 
-/// What each diffuse way brings. Those that bring nothing are not asked for.
+/// What each way brings. Those that bring nothing are not asked for.
 struct Brought {
   glm::vec3 diffuse[kSkyCount];
-  float mirror[kSkyCount];
+  float mirror[kSkyCount]; ///< in the lobe: its luminance
 };
 
-void weighDiffuse(const SkyLight& sky, const SkyPlaces& places, std::size_t count, SkyWays& ways, Brought& brought) {
+/// How many of the directions of aimByLobe lie there, per steradian, of 1 in all.
+float lobeDensity(const glm::vec3& normal, const glm::vec3& toEye, float roughness, const glm::vec3& toward) {
+  const glm::vec3 sum = toward + toEye;
+  const glm::vec3 half = sum / std::max(glm::length(sum), 1e-6f);
+  const float alpha = std::max(roughness * roughness, 1e-3f);
+  const float cosine = glm::dot(normal, half);
+  const float spread = cosine * cosine * (alpha * alpha - 1) + 1;
+  const float facets = alpha * alpha / (kSkyPi * spread * spread) * std::max(cosine, 0.0f);
+  return facets / (4 * std::max(glm::dot(toEye, half), 1e-4f));
+}
+
+/// Weighs ways that both kinds of rays may take. `perMirror`: diffuse rays for each that goes by the lobe.
+void weigh(const SkyLight& sky, const SkyPlaces& places, std::size_t count, float perMirror, SkyWays& ways,
+           Brought& brought) {
   const float share = sky.sampler->share();
   for (std::size_t i = 0; i < kSkyCount; ++i) ways.asked[i] = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const glm::vec3 toward = vectorAt(ways.toward, i);
-    const float cosine = glm::dot(vectorAt(places.shading, i), toward);
+    const glm::vec3 normal = vectorAt(places.shading, i);
+    const float cosine = glm::dot(normal, toward);
     const bool leaves = glm::dot(vectorAt(places.normal, i), toward) > kLeastOverPlane;
     if (places.receives[i] == 0 || !leaves || !(cosine > 0)) continue;
     const glm::vec3 there = sky.mapFromWorld * toward;
     const float density = (1 - share) * cosine / kSkyPi + (share > 0 ? share * sky.sampler->density(there) : 0.0f);
-    brought.diffuse[i] = sky.sampler->radiance(there) * (cosine / density);
-    ways.asked[i] = brought.diffuse[i].x + brought.diffuse[i].y + brought.diffuse[i].z > 0 ? -1 : 0;
-  }
-}
-
-void weighMirror(const SkyLight& sky, const SkyPlaces& places, std::size_t count, SkyWays& ways, Brought& brought) {
-  for (std::size_t i = 0; i < kSkyCount; ++i) ways.asked[i] = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const glm::vec3 toward = vectorAt(ways.toward, i);
-    const float cosine = glm::dot(vectorAt(places.shading, i), toward);
-    const bool leaves = glm::dot(vectorAt(places.normal, i), toward) > kLeastOverPlane;
-    if (places.receives[i] == 0 || !leaves || !(cosine > 0)) continue;
-    const glm::vec3 light = sky.sampler->radiance(sky.mapFromWorld * toward);
-    brought.mirror[i] = glm::dot(light, glm::vec3(0.2126f, 0.7152f, 0.0722f));
-    ways.asked[i] = brought.mirror[i] > 0 ? -1 : 0;
+    const glm::vec3 light = sky.sampler->radiance(there);
+    const float lobe = lobeDensity(normal, vectorAt(places.toEye, i), places.roughness[i], toward);
+    brought.diffuse[i] = light * (cosine / density);
+    brought.mirror[i] = glm::dot(light, glm::vec3(0.2126f, 0.7152f, 0.0722f)) * lobe / (perMirror * density + lobe);
+    ways.asked[i] = light.x + light.y + light.z > 0 ? -1 : 0;
   }
 }
 
@@ -145,32 +150,36 @@ std::uint64_t askedOf(const SkyWays& ways) {
 
 } // namespace
 
-std::uint64_t addSky(const SkyLight& sky, SkyPacket& packet, const ShownSamples& shown, const PixelPlaces& places,
+std::uint64_t addSky(const SkyLight& sky, SkyPacket& packet, const ShownSamples& shown, const SkyRayPlaces& places,
                      const SkyRays& rays, SkySums* sums) {
   const SkyPlaces& at = packet.places();
+  const float perMirror = static_cast<float>(rays.last) / static_cast<float>(mirrorRays(rays.last));
   std::uint64_t sent = 0;
   SkyWays ways;
   Brought brought;
+  const auto addMirror = [&](std::size_t i, float found) {
+    sums[i].openMirror += brought.mirror[i];
+    sums[i].arrivingMirror += brought.mirror[i] * found;
+  };
   for (std::uint32_t ray = rays.first; ray < rays.last; ++ray) {
-    Squares squares = squaresOf(shown, places, ray);
+    Squares squares = squaresOf(shown, places.diffuse, ray);
     aimByLight(sky, shown.count, squares, ways, at);
-    weighDiffuse(sky, at, shown.count, ways, brought);
+    weigh(sky, at, shown.count, perMirror, ways, brought);
     const auto found = packet.through(ways);
     for (std::size_t i = 0; i < shown.count; ++i) {
       if (ways.asked[i] == 0) continue;
       sums[i].open += brought.diffuse[i];
       sums[i].arriving += brought.diffuse[i] * found[i];
+      addMirror(i, found[i]);
     }
     sent += askedOf(ways);
   }
   for (std::uint32_t ray = mirrorRays(rays.first); ray < mirrorRays(rays.last); ++ray) {
-    aimByLobe(at, squaresOf(shown, places, ray), ways);
-    weighMirror(sky, at, shown.count, ways, brought);
+    aimByLobe(at, squaresOf(shown, places.mirrored, ray), ways);
+    weigh(sky, at, shown.count, perMirror, ways, brought);
     const auto found = packet.through(ways);
     for (std::size_t i = 0; i < shown.count; ++i) {
-      if (ways.asked[i] == 0) continue;
-      sums[i].openMirror += brought.mirror[i];
-      sums[i].arrivingMirror += brought.mirror[i] * found[i];
+      if (ways.asked[i] != 0) addMirror(i, found[i]);
     }
     sent += askedOf(ways);
   }

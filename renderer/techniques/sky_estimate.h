@@ -28,12 +28,20 @@ inline std::uint32_t mirrorRays(std::uint32_t rays) {
   return (rays + 3) / 4;
 }
 
+/// Where they go, of pixels that send so many at first, and four times as many in all.
+struct SkyRayPlaces {
+  explicit SkyRayPlaces(std::uint32_t first)
+      : diffuse(first, 4 * first), mirrored(mirrorRays(first), mirrorRays(4 * first)) {}
+
+  PixelPlaces diffuse, mirrored;
+};
+
 /// Adds what rays see to `sums`, one each of what is shown; nothing where no shadow is shown. Diffuse rays go by the
 /// cosine of the normal that a picture shades by, or by where light comes from, as EnvironmentSampler::share says, and
 /// count as both would have it (Veach and Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering",
-/// 1995: the balance heuristic). Those below the triangle's plane do not count. Gives how many rays were sent.
-/// REQUIRES: packet.start of what is shown.
-std::uint64_t addSky(const SkyLight& sky, SkyPacket& packet, const ShownSamples& shown, const PixelPlaces& places,
+/// 1995: the balance heuristic), and so do these and those around the mirrored direction for what is mirrored. Rays
+/// below the triangle's plane do not count. Gives how many rays were sent. REQUIRES: packet.start of what is shown.
+std::uint64_t addSky(const SkyLight& sky, SkyPacket& packet, const ShownSamples& shown, const SkyRayPlaces& places,
                      const SkyRays& rays, SkySums* sums);
 
 } // namespace gnomon

@@ -42,8 +42,8 @@ void addTo(SkyShares& shares, std::uint32_t pixel, const SkySums& sums) {
 /// A picture's rays to an environment.
 class SkyTracing {
  public:
-  SkyTracing(const PicturePoints& points, const SkyLight& sky, std::uint32_t rays)
-      : points_(points), sky_(sky), traced_(points.rays()), places_(rays), shares_(points.grid()) {}
+  SkyTracing(const PicturePoints& points, const SkyLight& sky, std::uint32_t few)
+      : points_(points), sky_(sky), traced_(points.rays()), places_(few), shares_(points.grid()) {}
 
   /// Rays `round` of each pixel that `asked` holds for; of all where it is empty.
   void trace(const SkyRays& round, std::span<const std::uint8_t> asked) {
@@ -84,7 +84,7 @@ class SkyTracing {
   const PicturePoints& points_;
   const SkyLight& sky_;
   TracedSky traced_;
-  PixelPlaces places_;
+  SkyRayPlaces places_;
   SkyShares shares_;
   std::atomic<std::uint64_t> sent_ = 0;
 };
@@ -93,7 +93,7 @@ class SkyTracing {
 
 SkyShadow skyShadow(const PicturePoints& points, const SkyLight& sky, int samples) {
   const auto few = static_cast<std::uint32_t>(std::max(samples, 1));
-  SkyTracing tracing(points, sky, 4 * few);
+  SkyTracing tracing(points, sky, few);
   tracing.trace({0, few}, {});
   tracing.trace({few, 4 * few}, uneven(points, tracing.shares()));
   const UnfilledVector<glm::u16vec4> even = evenedOut(points, tracing.shares());
@@ -101,7 +101,7 @@ SkyShadow skyShadow(const PicturePoints& points, const SkyLight& sky, int sample
   shadow.tracedPixels = static_cast<std::uint64_t>(std::count_if(
       tracing.shares().rays.begin(), tracing.shares().rays.end(), [](std::uint16_t rays) { return rays > 0; }));
   shadow.rays = tracing.sent();
-  shadow.values = sampleShares(points, sky, tracing.traced(), 4 * few, even, shadow.rays);
+  shadow.values = sampleShares(points, sky, tracing.traced(), few, even, shadow.rays);
   return shadow;
 }
 

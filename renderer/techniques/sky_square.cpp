@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kRow = SkySquare::kSide; ///< pixels
 
-constexpr float kSkyFlat = 0.01f;       ///< squared sine of the steepest way from a pixel to one of the same surface
+constexpr float kSkyFlat = 0.04f;       ///< squared sine of the steepest way from a pixel to one of the same surface
 constexpr float kSkyLeastCosine = 0.9f; ///< of their normals
 constexpr float kSkyFewest = 1e-3f;     ///< squared pixels; without a second direction there is no slope
 
@@ -19,8 +19,8 @@ struct SkyReach {
   int pixels;
   float most;
 };
-constexpr SkyReach kNarrow{2, 1.5f};
-constexpr SkyReach kWide{SkySquare::kReach, 1.2f};
+constexpr SkyReach kNarrow{2, 5.0f};
+constexpr SkyReach kWide{SkySquare::kReach, 4.0f};
 
 /// 1 where a pixel shows the same surface as another, else 0.
 [[gnu::always_inline]] inline float isSameSurface(const SkySquare& square, std::size_t other, std::size_t pixel) {

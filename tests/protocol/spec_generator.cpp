@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "protocol/spec/debug_light.h"
 #include "protocol/spec/field_rows.h"
 #include "protocol/spec/validate.h"
 #include "protocol/sun/moment.h"
@@ -274,7 +275,12 @@ rc::Gen<FrameSpec> anySpec() {
     mend(spec.shadow, spec.atlas);
     if (spec.lights) {
       for (Light& light : *spec.lights) mend(light, spec.atlas);
-      if (spec.debug.light && *spec.debug.light >= static_cast<int>(spec.lights->size())) spec.debug.light.reset();
+      const auto shown = debugLightIndex(spec.debug);
+      if (shown && *shown >= static_cast<int>(spec.lights->size())) spec.debug.light.reset();
+    }
+    if (showsEnvironment(spec.debug)) {
+      spec.debug.light = kEnvironmentName;
+      spec.environment.shadows = EnvironmentShadows::rays;
     }
     return spec;
   });

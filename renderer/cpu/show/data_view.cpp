@@ -6,6 +6,7 @@
 
 #include "renderer/cpu/shadow/debug_light-inl.h"
 #include "renderer/cpu/shadow/shadow_visibility-inl.h"
+#include "renderer/cpu/shadow/sky_share-inl.h"
 #include "renderer/cpu/show/packet-inl.h"
 #include "renderer/cpu/show/show_view.h"
 
@@ -25,6 +26,10 @@ HWY_INLINE DebugValue depthValue(const ShowJob& job, const Fragments& fragments)
 }
 
 HWY_INLINE DebugValue shadowValue(const ShowJob& job, const Receiver& receiver) {
+  if (job.sky.values != nullptr) {
+    const Float4 share = skyShare(job.sky, receiver, receiver.shown);
+    return number(luminance({share.x, share.y, share.z}));
+  }
   if (job.debugLight < 0) return number(1.0f);
   const Float3 toLight = towardsLight(job.maps.lights[static_cast<std::size_t>(job.debugLight)], receiver.relative);
   return number(shadowVisibility(job.maps, job.debugLight, receiver, toLight, receiver.shown));

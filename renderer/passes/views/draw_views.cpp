@@ -102,7 +102,7 @@ class ViewDrawing {
     if (traits.shadowed) {
       if (const Status there = needExactShadows(samples); !there) return there.problems();
     }
-    const bool sky = showsSkyShadow(work_, request);
+    const bool sky = showsSkyShadow(work_, request, show_.debugLight);
     if (sky) {
       if (const Status there = needSky(samples); !there) return there.problems();
     }

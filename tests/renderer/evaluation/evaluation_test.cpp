@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "protocol/spec/debug_light.h"
 #include "renderer/evaluation/evaluate.h"
 #include "renderer/evaluation/evaluation_measures.h"
 #include "renderer/evaluation/world_points.h"
@@ -202,7 +203,7 @@ TEST(EvaluationTimes, AVariantThatFailsIsLeftOutAndNoOneElse) {
 /// on.
 DrawFrame litFrames(std::size_t lights, int failing) {
   return [=](const FrameSpec& spec) -> Result<Frame> {
-    if (spec.exposure == 3 && spec.debug.light >= failing) {
+    if (spec.exposure == 3 && debugLightIndex(spec.debug) >= failing) {
       return Problem{ProblemCode::unsupportedFeature, "/shadow", "Not this one.", "", ""};
     }
     const auto pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
