@@ -38,7 +38,8 @@ AirColumn columnAlong(double height, double elevation) {
   const double from = kEarthRadius + height;
   const double along = from * sine;
   const double top = kEarthRadius + kAirTop;
-  const double length = std::sqrt(std::max(0.0, along * along - from * from + top * top)) - along;
+  const double beyond = std::sqrt(std::max(0.0, along * along - from * from + top * top));
+  const double length = std::max(0.0, beyond - along); // rounding, at the top
   // The densest place: where the way is nearest to the ground. Steps are short there.
   const double densest = std::clamp(-along, 0.0, length);
   AirColumn sum;
