@@ -57,8 +57,10 @@ int serveAsAsked(const CLI::App& app, CLI::App& command, const ConfigChoice& con
   faults.insert(faults.end(), applied.faults.begin(), applied.faults.end());
   std::vector<OptionFault> found = conflictsOf(options);
   ServeInputs inputs = readAddresses(options, found);
-  if (!config.print) readFiles(options, inputs, found);
   addFaults(found, applied, faults);
+  std::vector<OptionFault> inFiles;
+  if (!config.print) readFiles(options, inputs, inFiles);
+  addFaults(inFiles, applied, faults);
   for (const std::string& fault : faults) std::fprintf(stderr, "gnomon: %s\n", fault.c_str());
   if (!faults.empty()) return cli::kExitUsage;
   if (config.print) {

@@ -64,12 +64,13 @@ const StructType* structIn(const ValueType& type) {
   return holds ? structIn(*type.element) : type.object;
 }
 
-/// The names of the structs that are reached without passing through a list.
+/// The names of the structs that are always there, outside of lists.
 void collectOutsideLists(const StructType& type, std::set<std::string_view>& names) {
   names.insert(type.name);
   for (const FieldType& field : type.fields) {
     const StructType* inner = structIn(*field.type);
-    if (inner && !isList(*field.type)) collectOutsideLists(*inner, names);
+    const bool always = field.inlined || field.type->kind == ValueType::Kind::object;
+    if (inner && always) collectOutsideLists(*inner, names);
   }
 }
 

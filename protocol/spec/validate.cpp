@@ -104,6 +104,12 @@ void appendVolumeRules(const VolumeOptions& volume, const std::string& pointer, 
   }
 }
 
+void appendEnvironmentRules(const EnvironmentOptions& environment, std::vector<BrokenRule>& broken) {
+  if (!environment.file || !environment.sky) return;
+  broken.push_back({invalidValue("/environment", "An environment is a file or a sky.", "file | sky", "both"),
+                    {"/environment/file", "/environment/sky"}});
+}
+
 void appendEnvironmentViews(const FrameSpec& spec, std::vector<BrokenRule>& broken) {
   if (std::get<std::string>(*spec.debug.light) != kEnvironmentName) {
     broken.push_back({invalidValue("/debug/light", "Debug views show a light, by its index, or the environment.",
@@ -154,6 +160,7 @@ std::vector<BrokenRule> brokenRules(const FrameSpec& spec) {
   appendShadowRules(spec.shadow, spec.atlas, "/shadow", broken);
   appendAtlasRules(spec.atlas, broken);
   appendNodeRules(spec.nodes, "/nodes", broken);
+  appendEnvironmentRules(spec.environment, broken);
   appendMotionRules(spec, broken);
   for (std::size_t i = 0; i < spec.volumes.size(); ++i) {
     appendVolumeRules(spec.volumes[i], "/volumes/" + std::to_string(i), broken);

@@ -47,7 +47,7 @@ vec3 reflectedSurroundings(Surface surface, SurfacePoint s, vec4 arriving) {
                                         surface.roughness, surface.face, arriving);
   return frame.environmentIntensity * reflected;
 #else
-  return frame.ambient * ambientReflected(s);
+  return frame.ambient * ambientReflected(s, arriving);
 #endif
 }
 

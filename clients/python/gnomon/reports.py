@@ -233,6 +233,45 @@ class VolumeReport(TypedDict, total=False):
     lightMilliseconds: float
 
 
+class SunReport(TypedDict, total=False):
+    """The sun of an environment, turned and multiplied as the request says.
+
+    towards:
+        Direction towards it, of length 1.
+    angularDiameterDegrees:
+        Angle that its disc spans. Unit: degrees.
+    color:
+        Linear red, green and blue; the largest is 1.
+    lux:
+        Its light on a surface that faces it, as luminance, in the unit of a light's intensity.
+    """
+
+    towards: List[float]
+    angularDiameterDegrees: float
+    color: List[float]
+    lux: float
+
+
+class EnvironmentReport(TypedDict, total=False):
+    """What was found in the environment.
+
+    width:
+        Width of the file's picture; 0 = a computed sky. Unit: texels.
+    height:
+        Its height; 0 = a computed sky. Unit: texels.
+    meanRadiance:
+        Luminance of the file's picture, sun included: the mean over all directions, in its own unit; 0 = a computed
+        sky.
+    sun:
+        What was taken out of it and is the last of the lights of `spec`; absent = no sun was found or looked for.
+    """
+
+    width: int
+    height: int
+    meanRadiance: float
+    sun: "SunReport"
+
+
 class EdgeDisplacement(TypedDict, total=False):
     """Distance of the edges of a shadow from the true ones.
 
@@ -389,6 +428,7 @@ PassReport = TypedDict(
         "gpuMilliseconds": float,
         "drawCalls": int,
         "triangles": int,
+        "rays": int,
     },
     total=False,
 )
@@ -407,6 +447,8 @@ class FrameReport(TypedDict, total=False):
         Decisions for each light.
     volumes:
         Grid and light of each volume.
+    environment:
+        What was found in the environment; absent = the studio lights the frame.
     predictedError:
         How large the texels of all tiles appear; absent if no tile was drawn.
     error:
@@ -420,8 +462,9 @@ class FrameReport(TypedDict, total=False):
     passes:
         Times and counts of each pass, in the order of drawing.
     stages:
-        Time of each stage: queue, load, upload, bake, volume (with `volumes`), survey, plan, shadow, shade, predict
-        (with `debug.predictEdges`), reference (if a view asks for rays), readback, encode. Unit: milliseconds.
+        Time of each stage: queue, load, upload, bake, environment (with `environment.file` or `sky`), volume (with
+        `volumes`), survey, plan, shadow, shade, predict (with `debug.predictEdges`), reference (if a view asks for
+        rays), readback, encode. Unit: milliseconds.
     warnings:
         What differs from the file or the request, and what the picture is likely to lack: each a sentence, with
         what to set.
@@ -432,6 +475,7 @@ class FrameReport(TypedDict, total=False):
     atlasSize: List[int]
     lights: List["LightReport"]
     volumes: List["VolumeReport"]
+    environment: "EnvironmentReport"
     predictedError: "PredictedError"
     error: "ErrorMetrics"
     quality: "QualityReport"
@@ -454,6 +498,8 @@ class PlanReport(TypedDict, total=False):
         Width and height that the atlas would have; 0 0 = no atlas. Unit: texels. Default: [0, 0].
     lights:
         What would be decided for each light, without times.
+    environment:
+        What was found in the environment; absent = the studio would light the frame.
     predictedError:
         Upper bound of how large the texels of all tiles would appear; absent if no tile would be drawn.
     warnings:
@@ -464,6 +510,7 @@ class PlanReport(TypedDict, total=False):
     depthRange: List[float]
     atlasSize: List[int]
     lights: List["LightReport"]
+    environment: "EnvironmentReport"
     predictedError: "PredictedError"
     warnings: List[str]
 
@@ -479,6 +526,8 @@ class MemorySummary(TypedDict, total=False):
         Images, as if all were decoded; each is when a frame first needs it. Unit: bytes.
     volumes:
         Files of volumes, as they were uploaded. Unit: bytes.
+    environments:
+        Files of environments, as they were uploaded and as if all were read. Unit: bytes.
     deformation:
         Data from which skinned and morphed meshes are posed. Unit: bytes.
     animations:
@@ -491,6 +540,7 @@ class MemorySummary(TypedDict, total=False):
     indices: int
     images: int
     volumes: int
+    environments: int
     deformation: int
     animations: int
     structure: int
@@ -592,6 +642,8 @@ class SceneSummary(TypedDict, total=False):
         Names of the file's material variants, for `materialVariant`.
     volumeFiles:
         Names of the upload's .npy and .vdb files, which a frame's `volumes` may show.
+    environmentFiles:
+        Names of the upload's .hdr and .exr files, which a frame's `environment` may be.
     extensionsUsed:
         glTF extensions that the file names.
     extensionsIgnored:
@@ -624,6 +676,7 @@ class SceneSummary(TypedDict, total=False):
     animations: List["AnimationSummary"]
     materialVariants: List[str]
     volumeFiles: List[str]
+    environmentFiles: List[str]
     extensionsUsed: List[str]
     extensionsIgnored: List[str]
     warnings: List[str]
@@ -700,6 +753,12 @@ class Limits(TypedDict, total=False):
         Longest axis of a volume's grid, without the empty ends of a .vdb. Unit: voxels.
     maxVolumeVoxels:
         A volume's grid. Unit: voxels.
+    minEnvironmentWidth:
+        Least width of an environment's file, which is twice its height. Unit: texels.
+    maxEnvironmentWidth:
+        Greatest width of an environment's file. Unit: texels.
+    maxRadiance:
+        Greatest number in an environment's file.
     maxVariants:
         Variants of one evaluation.
     maxPathFrames:
@@ -769,6 +828,9 @@ class Limits(TypedDict, total=False):
     maxVolumeLights: int
     maxVolumeSide: int
     maxVolumeVoxels: int
+    minEnvironmentWidth: int
+    maxEnvironmentWidth: int
+    maxRadiance: float
     maxVariants: int
     maxPathFrames: int
     maxSequenceFrames: int

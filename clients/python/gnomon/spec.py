@@ -160,17 +160,35 @@ class Camera:
 
 @dataclass
 class Sun:
-    """A direction given by the sun's place in the sky.
+    """A direction given by the sun's place in the sky: by azimuth and elevation, or by a place on Earth and a time,
+    from which these follow. The effective spec has azimuth and elevation.
 
     azimuthDegrees:
-        Direction of the sun, clockwise from north (-Z) as seen from above; east (+X) is 90. Unit: degrees. Default:
-        135.0.
+        Direction of the sun, clockwise from north (-Z) as seen from above; east (+X) is 90; absent = 135. Unit:
+        degrees.
     elevationDegrees:
-        Height of the sun above the horizon; negative = below it. Unit: degrees. Default: 45.0.
+        Height of the sun above the horizon; negative = below it; absent = 45. Unit: degrees.
+    latitudeDegrees:
+        Latitude of the place, north of the equator positive; with `longitudeDegrees` and `time`, instead of azimuth
+        and elevation. Unit: degrees.
+    longitudeDegrees:
+        Longitude of the place, east of Greenwich positive. Unit: degrees.
+    time:
+        Date and time with a zone, as RFC 3339 has it, in the years 1900 to 2100: 2026-06-21T17:00:00+02:00, or Z
+        for UTC; seconds may be left out, leap seconds are refused. The sun is where it is seen at sea level:
+        refraction by the air raises it. While it is below the horizon its light has intensity 0. In quotes where a
+        query or a flag takes JSON.
+    northDegrees:
+        Where true north lies in the scene, clockwise from -Z as seen from above; with a place and a time; absent =
+        0. Unit: degrees.
     """
 
     azimuthDegrees: Optional[float] = None
     elevationDegrees: Optional[float] = None
+    latitudeDegrees: Optional[float] = None
+    longitudeDegrees: Optional[float] = None
+    time: Optional[str] = None
+    northDegrees: Optional[float] = None
 
 
 @dataclass
@@ -610,6 +628,92 @@ class Ambient:
 
 
 @dataclass
+class Sky:
+    """A clear sky and its sun, computed from the sun's place.
+
+    turbidity:
+        Haze of the air: 2 is a clear day in the mountains, 3 a clear day, 10 a hazy one. Default: 3.0.
+    albedo:
+        Linear red, green and blue share of light that the land all around reflects into the sky. Default: [0.2,
+        0.2, 0.2].
+    sun:
+        The sun's place in the sky. It becomes a directional light.
+    """
+
+    turbidity: Optional[float] = None
+    albedo: Optional[Vector] = None
+    sun: Optional[Union["Sun", Json]] = None
+
+
+@dataclass
+class EnvironmentOptions:
+    """Light from all around: a picture of all directions, a computed sky, or with neither the studio of `ambient`.
+
+    file:
+        Name of a file of the upload: .hdr (Radiance) or .exr, twice as wide as high, linear radiance by longitude
+        and latitude.
+    sky:
+        A computed sky instead of a file.
+    rotationDegrees:
+        Turns the environment about the vertical axis, clockwise as seen from above. At 0 the middle of the picture
+        lies towards +X and its right half towards +Z. Unit: degrees. Default: 0.0.
+    intensity:
+        Its light is multiplied by this; absent = 1, and 3e-5 for a sky, so that the sun at noon is as bright as a
+        light's default intensity.
+    background:
+        What is shown where there is no surface. none = `background`, as without an environment; environment = the
+        environment, exposed and tone mapped as the scene is; blurred = the environment out of focus. Default:
+        "none".
+    shadows:
+        Whether the scene hides a part of its light. Rays take about as long as a few soft shadows. none = all of
+        its light arrives everywhere, but for occlusion textures; rays = rays find what the scene hides of it.
+        Default: "none".
+    samples:
+        Rays a pixel that look for what is hidden; more are sent where they disagree. Four times as many halve the
+        noise and take four times as long. Default: 4.
+    extractSun:
+        What becomes of the brightest disc of a file, or of the sun of a sky. auto = a bright disc becomes a
+        directional light with its color, size and shadow; none = it stays in the picture; removed = it is taken
+        out, and no light is added: what a report's `spec` says whose `lights` has it. Default: "auto".
+    """
+
+    file: Optional[str] = None
+    sky: Optional[Union["Sky", Json]] = None
+    rotationDegrees: Optional[float] = None
+    intensity: Optional[float] = None
+    background: Optional[Literal["none", "environment", "blurred"]] = None
+    shadows: Optional[Literal["none", "rays"]] = None
+    samples: Optional[int] = None
+    extractSun: Optional[Literal["auto", "none", "removed"]] = None
+
+
+@dataclass
+class Ground:
+    """A horizontal plane under the scene, seen from above alone.
+
+    height:
+        Its height; absent = a hair below the lowest point that is seen, as posed. Unit: metres.
+    mode:
+        What is seen of it. catcher = invisible but for the shadows on it; surface = a surface of `color` and
+        `roughness`. Default: "catcher".
+    color:
+        Linear red, green and blue. In mode catcher view color doesn't show it, other views do. Default: [0.5, 0.5,
+        0.5].
+    roughness:
+        0 = a mirror, 1 = matt. In mode catcher view color doesn't show it, other views do. Default: 1.0.
+    size:
+        Length of its sides; absent = ten times the scene's largest side, of a catcher less where no shadow can fall
+        farther out. Unit: metres.
+    """
+
+    height: Optional[float] = None
+    mode: Optional[Literal["catcher", "surface"]] = None
+    color: Optional[Vector] = None
+    roughness: Optional[float] = None
+    size: Optional[float] = None
+
+
+@dataclass
 class Background:
     """What is shown where there is no surface; neither exposed nor tone mapped.
 
@@ -646,8 +750,9 @@ class Debug:
     """What the debug views show.
 
     light:
-        Index of the light that views of one light show; absent = the first light that casts a shadow in this frame,
-        or else the first light.
+        Index of the light that views of one light show, or "environment": views shadow, reference and error then
+        show the share of its diffuse light that arrives, by luminance; absent = the first light that casts a shadow
+        in this frame, or else the first light.
     tile:
         Which tile of that light the view `tile` shows: a cascade or a face. Default: 0.
     predictEdges:
@@ -655,7 +760,7 @@ class Debug:
         place (`predictedError.edgeDisplacement`). Costs about as much as shading twice. Default: false.
     """
 
-    light: Optional[int] = None
+    light: Optional[Union[int, str]] = None
     tile: Optional[int] = None
     predictEdges: Optional[bool] = None
 
@@ -754,6 +859,10 @@ class FrameSpec:
         The pose of an animated scene; absent = the file's rest pose.
     ambient:
         Light from the surroundings: a neutral studio, brighter above than at the sides and below.
+    environment:
+        Light from all around, which surfaces reflect and the scene may shade.
+    ground:
+        A plane under the scene that takes its shadows; absent = none.
     background:
         What is shown where there is no surface.
     exposure:
@@ -761,7 +870,8 @@ class FrameSpec:
         0.0.
     toneMapping:
         How linear light is brought into the range of a PNG; an EXR is never tone mapped. aces = a film-like curve;
-        none = unchanged, clipped at 1. Default: "aces".
+        neutral = Khronos PBR Neutral: colors of surfaces stay, highlights alone are compressed; agx = AgX: soft
+        contrast, bright colors fade to white; none = unchanged, clipped at 1. Default: "aces".
     antialiasing:
         How edges of surfaces are smoothed. Four samples a pixel take two to three times as long to draw on a CPU.
         none = one sample a pixel; msaa4x = four samples a pixel. Default: "msaa4x".
@@ -817,9 +927,11 @@ class FrameSpec:
     materialVariant: Optional[str] = None
     animation: Optional[Union["AnimationMoment", Json]] = None
     ambient: Optional[Union["Ambient", Json]] = None
+    environment: Optional[Union["EnvironmentOptions", Json]] = None
+    ground: Optional[Union["Ground", Json]] = None
     background: Optional[Union["Background", Json]] = None
     exposure: Optional[float] = None
-    toneMapping: Optional[Literal["aces", "none"]] = None
+    toneMapping: Optional[Literal["aces", "neutral", "agx", "none"]] = None
     antialiasing: Optional[Literal["none", "msaa4x"]] = None
     views: Optional[Sequence[Literal["color", "depth", "normal", "cascades", "shadow", "atlas", "tile", "texelGrid", "texelDensity", "blendWeight", "bias", "casterIds", "lightContribution", "reference", "error", "edgeDistance", "ids", "instances", "materials", "albedo", "position", "motion"]]] = None
     motionFrom: Optional[Union["MotionFrom", Json]] = None
@@ -916,8 +1028,8 @@ class SequenceRequest:
         removes a field, lists are replaced.
     keys:
         Patches as in `frames`, between which `count` frames lie at equal steps: the first frame is the first key,
-        the last frame the last key. In between, numbers at the same place of two neighbouring keys are interpolated
-        linearly; whole numbers and all else must be equal.
+        the last frame the last key. In between, numbers and times (of a sun) at the same place of two neighbouring
+        keys are interpolated linearly; whole numbers and all else must be equal.
     count:
         With `keys`: number of frames. Unit: frames.
     stable:

@@ -48,10 +48,12 @@ GNOMON_FUNCTION vec2 splitSum(Real roughness, Real nv) {
   return vec2(-1.04f * a004 + (roughness * -0.572f + 1.04f), 1.04f * a004 + (roughness * 0.022f + -0.04f));
 }
 
-// What a surface shows of the studio: Lambert, and the split sum.
-GNOMON_FUNCTION vec3 ambientReflected(SurfacePoint s) {
+// What a surface shows of the studio: Lambert, and the split sum. `arriving`: what the scene leaves of the diffuse
+// light (xyz) and of the mirrored (w).
+GNOMON_FUNCTION vec3 ambientReflected(SurfacePoint s, vec4 arriving) {
   Real roughness = sqrt(s.alpha);
   vec2 split = splitSum(roughness, clamp(dot(s.normal, s.toEye), 0.0f, 1.0f));
   vec3 mirrored = reflect(-s.toEye, s.normal);
-  return s.albedo * irradianceAround(s.normal.y) + (s.f0 * split.x + split.y) * radianceAround(mirrored.y, roughness);
+  vec3 diffuse = s.albedo * irradianceAround(s.normal.y) * vec3(arriving.x, arriving.y, arriving.z);
+  return diffuse + (s.f0 * split.x + split.y) * (radianceAround(mirrored.y, roughness) * arriving.w);
 }

@@ -202,8 +202,8 @@ TEST(FrameSpecJson, AbsentFieldsAreLeftOutAndKeysKeepTheirOrder) {
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
   EXPECT_THAT(keys, ElementsAre("width", "height", "camera", "shadow", "shadowLightPolicy", "atlas", "nodes", "volumes",
-                                "ambient", "background", "exposure", "toneMapping", "antialiasing", "views", "debug",
-                                "device", "output"));
+                                "ambient", "environment", "background", "exposure", "toneMapping", "antialiasing",
+                                "views", "debug", "device", "output"));
 }
 
 TEST(FrameSpecJson, TheViewDirectionStandsDirectlyInTheCamera) {

@@ -218,6 +218,14 @@ TEST(Validate, NoValueOfATransferFunctionComesTwice) {
   EXPECT_THAT(wrongIn(spec), ElementsAre("/volumes/0/transferFunction/1/value"));
 }
 
+TEST(Validate, AnEnvironmentIsAFileOrASky) {
+  FrameSpec spec;
+  spec.environment.file = "a.hdr";
+  EXPECT_THAT(wrongIn(spec), IsEmpty());
+  spec.environment.sky.emplace();
+  EXPECT_THAT(wrongIn(spec), ElementsAre("/environment"));
+}
+
 TEST(Validate, ATileFitsTheAtlas) {
   FrameSpec spec;
   spec.atlas = {512, 1024};

@@ -18,7 +18,7 @@ testing::GlbBuilder seenFrom(double x) {
 std::shared_ptr<const Scene> loadedBy(KnownContent& known, const testing::GlbBuilder& file) {
   auto scene = loadGltf(file.bundle(), kLimits, {}, &known);
   EXPECT_TRUE(scene);
-  return scene ? *scene : nullptr;
+  return scene ? std::make_shared<const Scene>(ofFile(**scene)) : nullptr;
 }
 
 void expectSameMeshes(const Scene& scene, const Scene& other) {

@@ -25,7 +25,7 @@ struct Reflected {
 struct Ambient {
   template <class Columns>
   static vec3 of(const Columns& in) {
-    return ambientReflected(pointOf(in));
+    return ambientReflected(pointOf(in), vec4(1.0f, 0.5f, 0.25f, 0.75f));
   }
 };
 
