@@ -63,7 +63,7 @@ test('it is painted at once, small, and comes from this server alone', async () 
   assert.ok(Math.min(...paints) < latest, told);
   const own = open.fetched.filter(({ url }) => url.protocol === 'http:' && !url.pathname.startsWith('/v1/'));
   const bytes = own.reduce((sum, file) => sum + file.bytes, 0);
-  assert.ok(bytes > 50_000 && bytes < 150_000, `${bytes} bytes`);
+  assert.ok(bytes > 50_000 && bytes < 165_000, `${bytes} bytes`);
   assert.deepEqual(open.fetched.filter(({ url }) => url.protocol.startsWith('http') && url.origin !== server.origin), []);
 });
 
