@@ -24,7 +24,7 @@ OTHER = {
     "store-bytes": "20000000000",
     "redis-password-file": '"/run/secrets/password"',
     "redis-authorities": '"/etc/ssl/redis.pem"',
-    "jobs": '"redis://queue.example:6380/1"',
+    "jobs": '"rediss://queue.example:6380/1"',
     "worker-program": '"/opt/choose gpu"',
     "device": '"gl"',
     "drake-spec": '"/etc/gnomon/drake.json"',
