@@ -18,10 +18,12 @@ testing::GlbBuilder seenFrom(double x) {
 std::shared_ptr<const Scene> loadedBy(KnownContent& known, const testing::GlbBuilder& file) {
   auto scene = loadGltf(file.bundle(), kLimits, {}, &known);
   EXPECT_TRUE(scene);
-  return scene ? std::make_shared<const Scene>(ofFile(**scene)) : nullptr;
+  return scene ? *scene : nullptr;
 }
 
-void expectSameMeshes(const Scene& scene, const Scene& other) {
+/// `other`: as `load` gives it.
+void expectSameMeshes(const Scene& loaded, const Scene& other) {
+  const Scene scene = ofFile(loaded);
   EXPECT_EQ(scene.positions, other.positions);
   EXPECT_EQ(scene.indices, other.indices);
   EXPECT_EQ(scene.welded, other.welded);
