@@ -55,6 +55,7 @@ class HeldFrames {
    private:
     friend class HeldFrames;
     struct Entry {
+      explicit Entry(const FrameTurn& held) : turn(held) {}
       FrameTurn turn;
       std::atomic<bool> isWanted = true;
     };
