@@ -119,8 +119,13 @@ async function played(file, times) {
     const pictures = [];
     for (const time of times) {
       const pixels = await video.evaluate(async (node, seconds) => {
+        const isThere = (shown) => shown <= seconds && seconds < shown + 1 / 30 + 1e-3;
+        const presented = new Promise((resolve) => {
+          const next = () => node.requestVideoFrameCallback((now, { mediaTime }) => (isThere(mediaTime) ? resolve() : next()));
+          next();
+        });
         node.currentTime = seconds;
-        await new Promise((resolve) => (node.onseeked = resolve));
+        await presented; // `seeked` may come while the frame before is still the one that is drawn
         const context = Object.assign(document.createElement('canvas'), { width: node.videoWidth, height: node.videoHeight }).getContext('2d');
         context.drawImage(node, 0, 0);
         const { data } = context.getImageData(0, 0, node.videoWidth, node.videoHeight);
