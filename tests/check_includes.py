@@ -45,7 +45,7 @@ MAY_INCLUDE = {
     "renderer/volume": ["protocol", "renderer/core", "renderer/volume"],
     "renderer/rays": ["protocol", "renderer/core", "renderer/image", "renderer/scene", "renderer/shaders/shared", "renderer/rays"],
     "renderer/reference": ["protocol", "renderer/core", "renderer/environment", "renderer/scene", "renderer/rays", "renderer/reference"],
-    "renderer/bake": ["protocol", "renderer/core", "renderer/scene", "renderer/rays", "renderer/bake"],
+    "renderer/bake": ["protocol", "renderer/core", "renderer/environment", "renderer/scene", "renderer/rays", "renderer/bake"],
     "renderer/shaders": ["renderer/shaders", "renderer/shaders/shared"],
     "renderer/shaders/shared": ["renderer/shaders/shared"],
     "renderer/prepare": PREPARED,

@@ -1,4 +1,4 @@
-// Bakes the light map of the present lights ahead of the frames, and takes it along as a file.
+// Bakes the light map of the present lights, and of the environment where it throws shadows, ahead of the frames, and takes it along as a file.
 
 import { bakeAhead, bakeFile } from './api.mjs';
 import { element, short } from './dom.mjs';
@@ -6,8 +6,8 @@ import { texelsOf } from './report_panel.mjs';
 import { saveFile } from './share.mjs';
 
 const kFiles = [
-  ['PNG', 'image/png', 'png', 'The share of the light that arrives, in grey'],
-  ['EXR', 'image/x-exr', 'exr', 'The same in floats, a layer for each light'],
+  ['PNG', 'image/png', 'png', 'The share of the first light that arrives, in grey'],
+  ['EXR', 'image/x-exr', 'exr', 'The share of each light in floats, a layer for each'],
   ['GLB', 'model/gltf-binary', 'glb', 'The scene with its light map in it, for viewers that know MOZ_lightmap'],
 ];
 
@@ -44,7 +44,8 @@ export function createBakePanel(store, { specOf, done, problems }) {
     try {
       const report = await bakeAhead(id, specOf(), follow, mine.signal);
       baked = { sceneId: id, key: report.key };
-      show(report.lights.map(({ lightMap }) => bakedText(lightMap)).join(' '));
+      const maps = report.lights.map(({ lightMap }) => lightMap).concat(report.environment ?? []);
+      show(maps.map(bakedText).join(' '));
       take.hidden = false;
       done();
     } catch (error) {

@@ -17,6 +17,11 @@ FrameSpec bakedParts(const FrameSpec& spec) {
                        .rotationDegrees = spec.environment.rotationDegrees,
                        .intensity = spec.environment.intensity,
                        .extractSun = spec.environment.extractSun};
+  if (spec.environment.shadows == EnvironmentShadows::rays) {
+    parts.environment.shadows = spec.environment.shadows;
+    parts.environment.samples = spec.environment.samples;
+    if (!spec.environment.file && !spec.environment.sky) parts.ambient = spec.ambient;
+  }
   parts.scene = spec.scene;
   parts.materialVariant = spec.materialVariant;
   parts.animation = spec.animation;
@@ -34,7 +39,7 @@ std::string bakeKey(std::string_view sceneId, const FrameSpec& spec) {
 
 std::optional<BakeReport> readBakeReport(std::string_view json) {
   auto report = readReply<BakeReport>(json, {"lights"});
-  return report && !report->lights.empty() ? report : std::nullopt;
+  return report && (!report->lights.empty() || report->environment) ? report : std::nullopt;
 }
 
 } // namespace gnomon

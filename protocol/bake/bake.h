@@ -23,13 +23,14 @@ struct BakedLightReport {
 struct BakeReport {
   std::string key{};
   std::vector<BakedLightReport> lights{};
+  std::optional<LightMapReport> environment{};
   double milliseconds = 0;
 };
 
 /// How far a bake has come.
 struct BakeStep {
   std::string key{};
-  int light = 0;
+  std::optional<int> light{}; ///< nothing = the environment
   double share = 0;
   int done = 0;
   int of = 0;
@@ -37,8 +38,10 @@ struct BakeStep {
 
 /// What a bake can be had as.
 enum class BakeFile {
-  png, ///< the share of one light that arrives, 8-bit grey: linear, row by row as the map has it
-  exr, ///< the same in floats; several lights are layers: light0.Y, light1.Y
+  /// The share of one light that arrives, 8-bit grey, or of the environment, 8-bit RGB: linear, row by row as the map
+  /// has it.
+  png,
+  exr, ///< the same in floats, all in layers: light0.Y, light1.Y, environment.R, .G and .B
   glb  ///< the scene with texture coordinates for the map, and the light that arrives under MOZ_lightmap
 };
 
@@ -52,8 +55,9 @@ constexpr std::optional<BakeFile> bakeFileOf(std::string_view mediaType) {
   return static_cast<BakeFile>(found - kBakeFileTypes.begin());
 }
 
-/// The parts of a frame's spec that decide what is baked for it; the rest has its defaults. A target stays, since no
-/// settings can be chosen without a camera, and the bake refuses it.
+/// The parts of a frame's spec that decide what is baked for it; the rest has its defaults. Rays to the environment
+/// stay where they are asked for, and then so does `ambient` where that is its light. A target stays, since no settings
+/// can be chosen without a camera, and the bake refuses it.
 FrameSpec bakedParts(const FrameSpec& spec);
 
 /// Names a bake: SHA-256 of a scene's id and of those parts, as 64 lower-case hexadecimal digits.

@@ -7,6 +7,7 @@
 #include "protocol/fields/field_list.h"
 #include "protocol/openapi/openapi_parts.h"
 #include "protocol/report/replies.h"
+#include "protocol/spec/debug_light.h"
 #include "protocol/spec/traits.h"
 
 namespace gnomon {
@@ -205,7 +206,8 @@ Json evaluationsRoute() {
 
 Json bakesRoute() {
   const char* description =
-      "Bakes the shadows of the lights whose technique is lightMap, so that frames of the same spec only look them up. "
+      "Bakes the shadows of the lights whose technique is lightMap, so that frames of the same spec only look them up; "
+      "where `environment.shadows` is rays, also what share of the environment's light arrives, for files of the bake. "
       "Of the body only what the shadows depend on matters; it may be the spec of such a frame. text/event-stream = "
       "events while it lasts: `progress` (BakeStep), and at last `result` (BakeReport) or `problem` (Problem). Closing "
       "the connection ends the bake.";
@@ -222,8 +224,8 @@ Json bakeRoute() {
       operation("deleteBake", "Stop or forget a bake",
                 replies({{"204", success("It is gone; where it was in progress, it ends.", Json())}}, {"400", "404"}));
   const char* description =
-      "image/png = the share of a light that arrives, in grey; image/x-exr = the same in floats, a layer for each "
-      "light; "
+      "image/png = the share of a light that arrives, in grey, or of the environment, in color; image/x-exr = the same "
+      "in floats, a layer for each; "
       "model/gltf-binary = the scene with texture coordinates for the map and the light that arrives, under "
       "MOZ_lightmap.";
   const Json content = {
@@ -232,8 +234,10 @@ Json bakeRoute() {
                                 replies({{"200", success(description, content)}},
                                         {"400", "404", "406", "413", "422", "429", "500", "503", "504"})));
   get["parameters"].push_back(parameter(
-      "light", "query", "Index of one of the baked lights; without it the first for PNG, and all for EXR and GLB.",
-      {{"type", "integer"}, {"minimum", 0}}));
+      "light", "query",
+      "Index of one of the baked lights, or `environment`; without it the first for PNG, and all for EXR and GLB.",
+      {{"anyOf",
+        {Json{{"type", "integer"}, {"minimum", 0}}, Json{{"type", "string"}, {"enum", {kEnvironmentName}}}}}}));
   return {{"get", std::move(get)}, {"delete", withBake(std::move(remove))}};
 }
 

@@ -1,120 +1,42 @@
 #include "renderer/bake/bake_light_map.h"
 
-#include <atomic>
-#include <chrono>
-#include <mutex>
+#include <cmath>
 
-#include "renderer/core/parallel.h"
-#include "renderer/core/stop.h"
+#include "renderer/bake/bake_texels.h"
 
 namespace gnomon {
 namespace {
 
-constexpr int kPlaces = 4;              ///< along each side of a texel
-constexpr int kBandRows = 16;           ///< of a chart, that one core has in hand at a time
-constexpr std::size_t kPoints = 512;    ///< that are traced together
-constexpr std::int32_t kUncovered = -1; ///< a share that is not known
+constexpr std::size_t kPoints = 512; ///< that are traced together
 
-/// Rows of a chart, and the triangles that reach into them.
-struct Band {
-  std::size_t chart = 0;
-  Rect rect; ///< texels of the map
-  std::vector<std::uint32_t> triangles;
-};
-
-std::size_t texelsOf(const Rect& rect) {
-  return static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height);
-}
-
-std::vector<Band> bandsOf(const LightMapLayout& layout) {
-  std::vector<Band> bands;
-  for (std::size_t chart = 0; chart < layout.charts.size(); ++chart) {
-    const PlacedChart& placed = layout.charts[chart];
-    const std::size_t first = bands.size();
-    const int top = placed.rect.y + placed.rect.height;
-    for (int y = placed.rect.y; y < top; y += kBandRows) {
-      bands.push_back({chart, {placed.rect.x, y, placed.rect.width, std::min(kBandRows, top - y)}, {}});
-    }
-    const auto bandAt = [&](double y) {
-      const int row = std::clamp(static_cast<int>(y), placed.rect.y, top - 1) - placed.rect.y;
-      return first + static_cast<std::size_t>(row / kBandRows);
-    };
-    for (const std::uint32_t triangle : placed.triangles) {
-      const FlatTriangle flat = layout.flat({placed.instance, triangle});
-      const auto [low, high] = std::minmax({flat[0].y, flat[1].y, flat[2].y});
-      for (std::size_t band = bandAt(low); band <= bandAt(high); ++band) bands[band].triangles.push_back(triangle);
-    }
-  }
-  return bands;
-}
-
-/// Says how much is done, one thread at a time, and asks often whether to go on.
-class Listener {
+/// Of one light.
+class LightSums : public TexelSums {
  public:
-  Listener(const Progress& progress, std::size_t texels) : progress_(progress), texels_(texels) {}
+  LightSums(const TracedLight& light, const Rect& rect, int samplesOfPlace, const GoOn& goOn)
+      : light_(light), goOn_(goOn), rect_(rect), samples_(samplesOfPlace), sums_(texels()), counts_(texels()) {}
 
-  bool stopped() const { return stopped_; }
-
-  void done(std::size_t texels) {
-    if (!progress_) return;
-    const std::lock_guard lock(mutex_);
-    done_ += texels;
-    report();
-  }
-
-  /// False = stop. Cheap: asks no more often than every few milliseconds.
-  bool goOn() {
-    constexpr std::chrono::milliseconds kPause{10};
-    if (!progress_ || stopped_) return !stopped_;
-    const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (lock && std::chrono::steady_clock::now() - reported_ >= kPause) report();
-    return !stopped_;
-  }
-
- private:
-  /// With the mutex held.
-  void report() {
-    reported_ = std::chrono::steady_clock::now();
-    if (!stopped_ && !progress_(static_cast<double>(done_) / static_cast<double>(texels_))) stopped_ = true;
-  }
-
-  const Progress& progress_;
-  std::size_t texels_;
-  std::size_t done_ = 0;
-  std::chrono::steady_clock::time_point reported_{};
-  std::mutex mutex_;
-  std::atomic<bool> stopped_ = false;
-};
-
-/// The shares that arrive in the texels of a band.
-class BandSums {
- public:
-  BandSums(const TracedLight& light, const Rect& rect, int samplesOfPlace, Listener& listener)
-      : light_(light), listener_(listener), rect_(rect), samples_(samplesOfPlace), sums_(texels()), counts_(texels()) {}
-
-  void add(const SurfacePoint& point, int x, int y) {
-    points_.push_back(point);
-    texels_.push_back(static_cast<std::size_t>((y - rect_.y) * rect_.width + (x - rect_.x)));
+  void add(const TexelPlace& place) override {
+    points_.push_back(light_.pointFacing(place.triangle, place.weights));
+    texels_.push_back(static_cast<std::size_t>((place.texel.y - rect_.y) * rect_.width + (place.texel.x - rect_.x)));
     if (points_.size() == kPoints) trace();
   }
 
-  /// The mean of each texel, 0..65535, or kUncovered.
-  std::vector<std::int32_t> means() {
+  std::vector<std::vector<std::int32_t>> means() override {
     trace();
     std::vector<std::int32_t> means(texels(), kUncovered);
     for (std::size_t i = 0; i < means.size(); ++i) {
       if (counts_[i] > 0) means[i] = static_cast<std::int32_t>(std::lround(sums_[i] / counts_[i] * 65535));
     }
-    return means;
+    return {std::move(means)};
   }
 
  private:
-  std::size_t texels() const { return texelsOf(rect_); }
+  std::size_t texels() const { return static_cast<std::size_t>(rect_.width) * static_cast<std::size_t>(rect_.height); }
 
   void trace() {
     shares_.resize(points_.size());
     stopIfAsked();
-    if (listener_.goOn()) light_.visibility(points_, samples_, shares_);
+    if (goOn_()) light_.visibility(points_, samples_, shares_);
     for (std::size_t i = 0; i < points_.size(); ++i) {
       sums_[texels_[i]] += double{shares_[i]};
       ++counts_[texels_[i]];
@@ -124,7 +46,7 @@ class BandSums {
   }
 
   const TracedLight& light_;
-  Listener& listener_;
+  GoOn goOn_;
   Rect rect_;
   int samples_;
   std::vector<SurfacePoint> points_;
@@ -134,141 +56,17 @@ class BandSums {
   std::vector<int> counts_;
 };
 
-/// Where a place of the map lies in a triangle: weights of its second and third corner. Nothing outside of it.
-class Weights {
- public:
-  explicit Weights(const FlatTriangle& t)
-      : origin_(t[0]), ab_(t[1] - t[0]), ac_(t[2] - t[0]), over_(1 / signedArea(t)) {}
-
-  std::optional<glm::dvec2> at(const glm::dvec2& place) const {
-    const glm::dvec2 p = place - origin_;
-    const double u = (p.x * ac_.y - p.y * ac_.x) * over_;
-    const double v = (ab_.x * p.y - ab_.y * p.x) * over_;
-    if (!(u >= 0 && v >= 0 && u + v <= 1)) return std::nullopt;
-    return glm::dvec2(u, v);
-  }
-
- private:
-  glm::dvec2 origin_, ab_, ac_;
-  double over_;
-};
-
-void addPlaces(const TracedLight& light, const PlacedTriangle& triangle, const FlatTriangle& flat, const Rect& rect,
-               BandSums& sums) {
-  if (signedArea(flat) == 0) return;
-  const Weights weights(flat);
-  const auto [left, right] = std::minmax({flat[0].x, flat[1].x, flat[2].x});
-  const auto [low, high] = std::minmax({flat[0].y, flat[1].y, flat[2].y});
-  const int firstX = std::max(rect.x, static_cast<int>(left));
-  const int lastX = std::min(rect.x + rect.width - 1, static_cast<int>(right));
-  const int firstY = std::max(rect.y, static_cast<int>(low));
-  const int lastY = std::min(rect.y + rect.height - 1, static_cast<int>(high));
-  for (int y = firstY; y <= lastY; ++y) {
-    for (int x = firstX; x <= lastX; ++x) {
-      for (int place = 0; place < kPlaces * kPlaces; ++place) {
-        const glm::dvec2 within(place % kPlaces + 0.5, place / kPlaces + 0.5);
-        const auto at = weights.at(glm::dvec2(x, y) + within / double{kPlaces});
-        if (at) sums.add(light.pointFacing(triangle, *at), x, y);
-      }
-    }
-  }
-}
-
-/// Gives each texel that no surface covers the mean of its neighbours that are known, ring by ring.
-void spread(const Rect& rect, int mapWidth, Listener& listener, std::vector<std::int32_t>& shares) {
-  const auto numberAt = [&](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(mapWidth) + static_cast<std::size_t>(x);
-  };
-  std::vector<glm::ivec2> open;
-  for (int y = rect.y; y < rect.y + rect.height; ++y) {
-    for (int x = rect.x; x < rect.x + rect.width; ++x) {
-      if (shares[numberAt(x, y)] == kUncovered) open.emplace_back(x, y);
-    }
-  }
-  while (!open.empty() && listener.goOn()) {
-    stopIfAsked();
-    std::vector<glm::ivec2> still;
-    std::vector<std::pair<std::size_t, std::int32_t>> found;
-    for (const glm::ivec2& texel : open) {
-      std::int32_t sum = 0, count = 0;
-      for (int y = std::max(texel.y - 1, rect.y); y <= std::min(texel.y + 1, rect.y + rect.height - 1); ++y) {
-        for (int x = std::max(texel.x - 1, rect.x); x <= std::min(texel.x + 1, rect.x + rect.width - 1); ++x) {
-          const std::int32_t share = shares[numberAt(x, y)];
-          if (share == kUncovered) continue;
-          sum += share;
-          ++count;
-        }
-      }
-      if (count > 0) {
-        found.emplace_back(numberAt(texel.x, texel.y), (sum + count / 2) / count);
-      } else {
-        still.push_back(texel);
-      }
-    }
-    if (found.empty()) return; // nothing of the chart is known
-    for (const auto& [texel, share] : found) shares[texel] = share;
-    open = std::move(still);
-  }
-}
-
-/// The share at the middle of a chart's first triangle, for all of a chart so narrow that none of the places lies in
-/// it.
-void fillNarrow(const TracedLight& light, const PlacedChart& chart, int samples, int mapWidth,
-                std::vector<std::int32_t>& shares) {
-  const auto rowOf = [&](int y) {
-    return shares.begin() + static_cast<std::ptrdiff_t>(y) * mapWidth + static_cast<std::ptrdiff_t>(chart.rect.x);
-  };
-  if (*rowOf(chart.rect.y) != kUncovered) return;
-  const SurfacePoint middle = light.pointFacing({chart.instance, chart.triangles.front()}, glm::dvec2(1.0 / 3));
-  float share = 1;
-  light.visibility({&middle, 1}, samples, {&share, 1});
-  for (int y = chart.rect.y; y < chart.rect.y + chart.rect.height; ++y) {
-    std::fill_n(rowOf(y), chart.rect.width, static_cast<std::int32_t>(std::lround(share * 65535)));
-  }
-}
-
 } // namespace
 
 std::optional<LightMap> bakeLightMap(const TraceInput& rays, int light, const LightMapLayout& layout, int samples,
                                      const Progress& progress) {
   const TracedLight traced(rays, light);
-  const std::vector<Band> bands = bandsOf(layout);
-  const auto width = static_cast<std::size_t>(layout.width);
-  std::vector<std::int32_t> shares(width * static_cast<std::size_t>(layout.height), kUncovered);
-  std::size_t texels = 0;
-  for (const Band& band : bands) texels += texelsOf(band.rect);
-  Listener listener(progress, texels);
-  const int samplesOfPlace = (samples + kPlaces * kPlaces - 1) / (kPlaces * kPlaces);
-  forEach(bands.size(), [&](std::size_t i) {
-    if (listener.stopped()) return;
-    const Band& band = bands[i];
-    BandSums sums(traced, band.rect, samplesOfPlace, listener);
-    const std::uint32_t instance = layout.charts[band.chart].instance;
-    for (const std::uint32_t triangle : band.triangles) {
-      if (listener.stopped()) return;
-      addPlaces(traced, {instance, triangle}, layout.flat({instance, triangle}), band.rect, sums);
-    }
-    const std::vector<std::int32_t> means = sums.means();
-    const auto rowLength = static_cast<std::size_t>(band.rect.width);
-    for (int row = 0; row < band.rect.height; ++row) {
-      const auto from = means.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(row) * rowLength);
-      std::copy_n(from, rowLength,
-                  &shares[static_cast<std::size_t>(band.rect.y + row) * width + static_cast<std::size_t>(band.rect.x)]);
-    }
-    listener.done(texelsOf(band.rect));
-  });
-  if (listener.stopped()) return std::nullopt;
-  forEach(layout.charts.size(), [&](std::size_t i) {
-    if (!listener.goOn()) return;
-    spread(layout.charts[i].rect, layout.width, listener, shares);
-    fillNarrow(traced, layout.charts[i], samples, layout.width, shares);
-  });
-  if (listener.stopped()) return std::nullopt;
-  LightMap map{layout.width, layout.height, std::vector<std::uint16_t>(shares.size(), 65535)};
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    if (shares[i] != kUncovered) map.shares[i] = static_cast<std::uint16_t>(shares[i]);
-  }
-  return map;
+  const auto sums = [&](const Rect& rect, int places, const GoOn& goOn) -> std::unique_ptr<TexelSums> {
+    return std::make_unique<LightSums>(traced, rect, (samples + places - 1) / places, goOn);
+  };
+  auto maps = bakeTexels(layout, 1, sums, progress);
+  if (!maps) return std::nullopt;
+  return std::move(maps->front());
 }
 
 } // namespace gnomon

@@ -1,6 +1,7 @@
 #include "renderer/bake/light_map_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -34,8 +35,10 @@ std::string hashOf(const LightMapLayout& layout, std::span<const std::uint8_t> n
 Bytes lightMapFile(const BakedLight& baked) {
   const LightMap& map = baked.map;
   Bytes shares;
-  shares.reserve(map.shares.size() * 2);
-  for (const std::uint16_t share : map.shares) addNumber(shares, share, 2);
+  for (const LightMap* plane : {&map, &baked.greenAndBlue[0], &baked.greenAndBlue[1]}) {
+    shares.reserve(shares.size() + plane->shares.size() * 2);
+    for (const std::uint16_t share : plane->shares) addNumber(shares, share, 2);
+  }
   Bytes numbers;
   addNumber(numbers, static_cast<std::uint64_t>(map.width), 4);
   addNumber(numbers, static_cast<std::uint64_t>(map.height), 4);
@@ -50,9 +53,10 @@ Bytes lightMapFile(const BakedLight& baked) {
 }
 
 std::optional<BakedLight> readLightMapFile(std::span<const std::uint8_t> file,
-                                           const std::shared_ptr<const LightMapLayout>& layout) {
+                                           const std::shared_ptr<const LightMapLayout>& layout, BakedPlanes planes) {
   const auto texels = static_cast<std::size_t>(layout->width) * static_cast<std::size_t>(layout->height);
-  if (file.size() != kHead + 2 * texels || !asText(file).starts_with(kForm)) return std::nullopt;
+  const std::size_t count = planes == BakedPlanes::rgb ? 3 : 1;
+  if (file.size() != kHead + 2 * texels * count || !asText(file).starts_with(kForm)) return std::nullopt;
   const auto numbers = file.subspan(kForm.size(), kNumbers);
   const auto hash = asText(file.subspan(kForm.size() + kNumbers, kHash));
   const auto shares = file.subspan(kHead);
@@ -61,9 +65,13 @@ std::optional<BakedLight> readLightMapFile(std::span<const std::uint8_t> file,
       hashOf(*layout, numbers, shares) != hash) {
     return std::nullopt;
   }
-  BakedLight baked{layout, {layout->width, layout->height, std::vector<std::uint16_t>(texels)}, 0};
-  for (std::size_t i = 0; i < texels; ++i) {
-    baked.map.shares[i] = static_cast<std::uint16_t>(littleEndian(shares.subspan(2 * i, 2)));
+  BakedLight baked{layout, {}, 0};
+  const std::array to{&baked.map, &baked.greenAndBlue[0], &baked.greenAndBlue[1]};
+  for (std::size_t plane = 0; plane < count; ++plane) {
+    *to[plane] = {layout->width, layout->height, std::vector<std::uint16_t>(texels)};
+    for (std::size_t i = 0; i < texels; ++i) {
+      to[plane]->shares[i] = static_cast<std::uint16_t>(littleEndian(shares.subspan(2 * (plane * texels + i), 2)));
+    }
   }
   baked.milliseconds = static_cast<double>(littleEndian(numbers.subspan(8))) / 1e6;
   return baked;

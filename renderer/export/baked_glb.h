@@ -8,6 +8,7 @@
 #include "protocol/base/bytes.h"
 #include "protocol/base/result.h"
 #include "renderer/bake/baked_light.h"
+#include "renderer/environment/environment.h"
 #include "renderer/image/image.h"
 #include "renderer/scene/node_switches.h"
 #include "renderer/scene/scene.h"
@@ -20,6 +21,13 @@ struct ShadowedLight {
   const BakedLight& baked;
 };
 
+/// An environment with its shadow on a scene.
+struct ShadowedEnvironment {
+  const FrameEnvironment& environment;
+  glm::dvec3 ambient{0}; ///< radiance of the studio, where that is the environment; linear RGB
+  const BakedLight& baked;
+};
+
 /// The light on the front of surfaces, or on either side of double-sided ones: linear RGB in the unit of the lights,
 /// texel by texel of the layout.
 struct IrradianceMap {
@@ -28,9 +36,9 @@ struct IrradianceMap {
   std::vector<glm::vec3> texels;
 };
 
-/// REQUIRES: at least one light, and all baked on one layout.
+/// `environment`: null = none. REQUIRES: it or at least one light, and all baked on one layout.
 IrradianceMap irradianceMap(const Scene& scene, const SceneView& view, std::span<const NodeSwitches> nodes,
-                            std::span<const ShadowedLight> lights);
+                            std::span<const ShadowedLight> lights, const ShadowedEnvironment* environment = nullptr);
 
 /// A GLB that grows: its JSON, and the bytes of its one buffer.
 struct GlbDraft {

@@ -6,8 +6,11 @@
 #include <limits>
 #include <string>
 
+#include "protocol/spec/debug_light.h"
+#include "renderer/core/linear_algebra.h"
 #include "renderer/export/baked_glb.h"
 #include "renderer/frame/baked_scene.h"
+#include "renderer/frame/environment_lights.h"
 #include "renderer/image/picture_encode.h"
 #include "renderer/scene/scene.h"
 
@@ -15,52 +18,106 @@ namespace gnomon {
 
 namespace {
 
-Result<std::vector<int>> chosenLights(const BakedScene& baked, std::optional<int> light) {
-  if (!light) return baked.lights;
-  if (std::find(baked.lights.begin(), baked.lights.end(), *light) != baked.lights.end()) return std::vector{*light};
-  std::string lights;
-  for (const int each : baked.lights) (lights += lights.empty() ? "" : ", ") += std::to_string(each);
-  return Problem{ProblemCode::invalidValue, "/light", "This light was not baked.", lights, std::to_string(*light)};
+/// What a file is of.
+struct Chosen {
+  std::vector<int> lights;
+  bool environment = false;
+};
+
+Result<Chosen> chosenOf(const BakedScene& baked, std::optional<int> light) {
+  const bool hasEnvironment = baked.environment.baked != nullptr;
+  if (!light) return Chosen{baked.lights, hasEnvironment};
+  if (light == kEnvironmentLight && hasEnvironment) return Chosen{{}, true};
+  if (std::find(baked.lights.begin(), baked.lights.end(), *light) != baked.lights.end()) return Chosen{{*light}, false};
+  std::string known;
+  for (const int each : baked.lights) (known += known.empty() ? "" : ", ") += std::to_string(each);
+  if (hasEnvironment) (known += known.empty() ? "" : ", ") += kEnvironmentName;
+  if (light == kEnvironmentLight) {
+    return Problem{ProblemCode::invalidValue, "/light", "The environment was not baked.", known, kEnvironmentName};
+  }
+  return Problem{ProblemCode::invalidValue, "/light", "This light was not baked.", known, std::to_string(*light)};
 }
 
 const BakedLight& bakedOf(const BakedScene& baked, int light) {
   return *baked.found[static_cast<std::size_t>(light)].baked;
 }
 
-Image greyOf(const LightMap& map) {
-  std::vector<std::uint8_t> pixels(map.shares.size());
-  std::transform(map.shares.begin(), map.shares.end(), pixels.begin(),
-                 [](std::uint16_t share) { return static_cast<std::uint8_t>((share + 128) / 257); });
-  return {map.width, map.height, {"Y"}, std::move(pixels)};
+/// Of one plane or three, texel by texel.
+using Planes = std::vector<const LightMap*>;
+
+Planes planesOf(const BakedLight& environment) {
+  return {&environment.map, &environment.greenAndBlue[0], &environment.greenAndBlue[1]};
 }
 
-Image floatsOf(const LightMap& map) {
-  std::vector<float> pixels(map.shares.size());
-  std::transform(map.shares.begin(), map.shares.end(), pixels.begin(),
-                 [](std::uint16_t share) { return static_cast<float>(share) / 65535; });
-  return {map.width, map.height, {"Y"}, std::move(pixels)};
+std::vector<std::string> channelsOf(const Planes& planes) {
+  return planes.size() == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
 }
 
-Result<Bytes> exrOf(const BakedScene& baked, const std::vector<int>& lights) {
+template <class T, class FromShare>
+Image imageOf(const Planes& planes, const FromShare& fromShare) {
+  std::vector<T> pixels;
+  pixels.reserve(planes.size() * planes.front()->shares.size());
+  for (std::size_t i = 0; i < planes.front()->shares.size(); ++i) {
+    for (const LightMap* plane : planes) pixels.push_back(fromShare(plane->shares[i]));
+  }
+  return {planes.front()->width, planes.front()->height, channelsOf(planes), std::move(pixels)};
+}
+
+Image bytesOf(const Planes& planes) {
+  return imageOf<std::uint8_t>(planes,
+                               [](std::uint16_t share) { return static_cast<std::uint8_t>((share + 128) / 257); });
+}
+
+Image floatsOf(const Planes& planes) {
+  return imageOf<float>(planes, [](std::uint16_t share) { return static_cast<float>(share) / 65535; });
+}
+
+Result<Bytes> pngOf(const BakedScene& baked, const Chosen& chosen) {
+  constexpr int kPngLevel = 2;
+  const Planes planes =
+      chosen.lights.empty() ? planesOf(*baked.environment.baked) : Planes{&bakedOf(baked, chosen.lights.front()).map};
+  return encodePng(bytesOf(planes), kPngLevel);
+}
+
+Result<Bytes> exrOf(const BakedScene& baked, const Chosen& chosen) {
   std::vector<Image> images;
-  for (const int light : lights) images.push_back(floatsOf(bakedOf(baked, light).map));
+  std::vector<std::string> names;
+  for (const int light : chosen.lights) {
+    images.push_back(floatsOf({&bakedOf(baked, light).map}));
+    names.push_back("light" + std::to_string(light));
+  }
+  if (chosen.environment) {
+    images.push_back(floatsOf(planesOf(*baked.environment.baked)));
+    names.emplace_back(kEnvironmentName);
+  }
   std::vector<ImageLayer> layers;
-  for (std::size_t i = 0; i < lights.size(); ++i) layers.push_back({"light" + std::to_string(lights[i]), &images[i]});
+  for (std::size_t i = 0; i < images.size(); ++i) layers.push_back({names[i], &images[i]});
   return encodeExr(layers, ExrCompression::zip, ExrPixelType::float_);
 }
 
-Result<Bytes> glbOf(const BakedScene& baked, const std::vector<int>& lights) {
+/// Radiance of the studio, in the unit of the lights.
+glm::dvec3 studioOf(const FrameSpec& spec) {
+  return toVector(spec.ambient.color) * (spec.ambient.intensity * intensityOf(spec.environment));
+}
+
+Result<Bytes> glbOf(const BakedScene& baked, const Chosen& chosen) {
+  const FrameSpec& spec = baked.frame.spec;
   std::vector<ShadowedLight> shadowed;
-  for (const int light : lights) {
-    shadowed.push_back({(*baked.frame.spec.lights)[static_cast<std::size_t>(light)], bakedOf(baked, light)});
+  for (const int light : chosen.lights) {
+    shadowed.push_back({(*spec.lights)[static_cast<std::size_t>(light)], bakedOf(baked, light)});
     if (shadowed.back().baked.layout->corners == shadowed.front().baked.layout->corners) continue;
     return Problem{ProblemCode::invalidValue, "/lights/" + std::to_string(light) + "/shadow/lightMap",
                    "A GLB has one map for all lights, but this light was baked more finely or less than another.",
                    "the same size or texelsPerMetre for all lights, or one light"};
   }
+  std::optional<ShadowedEnvironment> environment;
+  if (chosen.environment)
+    environment.emplace(ShadowedEnvironment{baked.around, studioOf(spec), *baked.environment.baked});
   const SceneView& view = baked.scene->scenes[static_cast<std::size_t>(baked.frame.scene)];
-  const IrradianceMap map = irradianceMap(*baked.scene, view, baked.frame.nodes, shadowed);
-  return bakedGlb(*baked.scene, view, baked.frame.nodes, *shadowed.front().baked.layout, map, kMostExportedBytes);
+  const IrradianceMap map =
+      irradianceMap(*baked.scene, view, baked.frame.nodes, shadowed, environment ? &*environment : nullptr);
+  const LightMapLayout& layout = *(environment ? environment->baked : shadowed.front().baked).layout;
+  return bakedGlb(*baked.scene, view, baked.frame.nodes, layout, map, kMostExportedBytes);
 }
 
 const std::vector<float>& numbersOf(const Frame& frame) {
@@ -100,16 +157,15 @@ std::vector<Rgb> labelColors(const Scene& scene) {
 } // namespace
 
 Result<Bytes> bakeFile(const BakedScene& baked, BakeFile kind, std::optional<int> light) {
-  constexpr int kPngLevel = 2;
-  const auto lights = chosenLights(baked, light);
-  if (!lights) return lights.problems();
+  const auto chosen = chosenOf(baked, light);
+  if (!chosen) return chosen.problems();
   switch (kind) {
     case BakeFile::png:
-      return encodePng(greyOf(bakedOf(baked, lights->front()).map), kPngLevel);
+      return pngOf(baked, *chosen);
     case BakeFile::exr:
-      return exrOf(baked, *lights);
+      return exrOf(baked, *chosen);
     case BakeFile::glb:
-      return glbOf(baked, *lights);
+      return glbOf(baked, *chosen);
   }
   return Problem{ProblemCode::internal, "", "There is no such file of a bake."};
 }

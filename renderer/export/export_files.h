@@ -16,8 +16,9 @@ struct BakedScene;
 
 inline constexpr std::size_t kMostExportedBytes = 256u << 20; ///< of a GLB
 
-/// A bake as a file. `light`: index of a baked light; absent = the first for PNG, all for the others. Problems: at
-/// /light; lights of one file with charts of different sizes; broken pictures; tooLarge above kMostExportedBytes.
+/// A bake as a file. `light`: index of a baked light, or kEnvironmentLight; absent = the first for PNG, or the
+/// environment where no light was baked, and all for the others. Problems: at /light; lights of one file with charts of
+/// different sizes; broken pictures; tooLarge above kMostExportedBytes.
 Result<Bytes> bakeFile(const BakedScene& baked, BakeFile kind, std::optional<int> light);
 
 // Frames of simulated sensors. `goOn`: false ends the encoding with a problem of code unavailable.

@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "protocol/spec/traits.h"
 #include "renderer/core/light.h"
 #include "renderer/core/linear_algebra.h"
 #include "renderer/core/parallel.h"
 #include "renderer/export/baked_glb.h"
+#include "renderer/shaders/shared/functions.h"
 
 namespace gnomon {
 namespace {
@@ -68,6 +70,7 @@ Nearest nearestIn(const FlatTriangle& t, const glm::dvec2& place) {
 /// A triangle's corners in the world.
 struct WorldTriangle {
   std::array<glm::dvec3, 3> positions, normals;
+  glm::dvec3 front{0, 1, 0}; ///< normal of its own, on the front side
 };
 
 WorldTriangle worldTriangle(const Scene& scene, const Instance& instance, std::uint32_t triangle) {
@@ -80,19 +83,36 @@ WorldTriangle worldTriangle(const Scene& scene, const Instance& instance, std::u
     world.positions[k] = glm::dvec3(instance.worldFromLocal * glm::dvec4(glm::dvec3(scene.positions[vertex]), 1));
     world.normals[k] = unitOr(turned * glm::dvec3(scene.attributes[vertex].normal), {0, 1, 0});
   }
+  const auto& [a, b, c] = world.positions;
+  const double side = glm::determinant(glm::dmat3(instance.worldFromLocal)) < 0 ? -1 : 1;
+  world.front = side * unitOr(glm::cross(b - a, c - a), world.front);
   return world;
+}
+
+/// Irradiance of what faces `normal`, with nothing in the way; in the unit of the lights.
+glm::dvec3 openIrradiance(const ShadowedEnvironment& sky, const glm::dvec3& normal) {
+  const FrameEnvironment& around = sky.environment;
+  if (!around.environment) {
+    return std::numbers::pi * sky.ambient * double{shared::irradianceAround(static_cast<float>(normal.y))};
+  }
+  const glm::vec3 overPi = shared::environmentIrradiance(around.environment->prefiltered.texels.data(),
+                                                         glm::vec3(around.mapFromWorld * normal));
+  return std::numbers::pi * around.intensity * glm::dvec3(overPi);
 }
 
 class ChartLight {
  public:
   ChartLight(const Scene& scene, const Instance& instance, const NodeSwitches& node,
-             std::span<const ShadowedLight> lights)
+             std::span<const ShadowedLight> lights, const ShadowedEnvironment* environment)
       : lights_(lights),
+        environment_(environment),
         node_(node),
         doubleSided_(scene.materials[static_cast<std::size_t>(materialOf(scene, instance))].doubleSided) {}
 
-  glm::dvec3 at(const glm::dvec3& position, const glm::dvec3& normal, const glm::ivec2& texel) const {
-    glm::dvec3 sum(0);
+  /// `front`: the triangle's own normal.
+  glm::dvec3 at(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& front,
+                const glm::ivec2& texel) const {
+    glm::dvec3 sum = environment_ ? ofEnvironment(normal, front, texel) : glm::dvec3(0);
     for (const ShadowedLight& each : lights_) {
       if (!isLitBy(each.light, node_)) continue;
       const Arriving light = arriving(each.light, position);
@@ -108,7 +128,18 @@ class ChartLight {
   }
 
  private:
+  /// By the normal that a picture shades the front by.
+  glm::dvec3 ofEnvironment(const glm::dvec3& normal, const glm::dvec3& front, const glm::ivec2& texel) const {
+    const glm::dvec3 shown = doubleSided_ && glm::dot(normal, front) < 0 ? -normal : normal;
+    const BakedLight& baked = environment_->baked;
+    const glm::dvec3 share(baked.map.at(texel.x, texel.y), baked.greenAndBlue[0].at(texel.x, texel.y),
+                           baked.greenAndBlue[1].at(texel.x, texel.y));
+    const glm::dvec3 open = openIrradiance(*environment_, shown);
+    return node_.receiveShadow ? open * share / 65535.0 : open;
+  }
+
   std::span<const ShadowedLight> lights_;
+  const ShadowedEnvironment* environment_;
   NodeSwitches node_;
   bool doubleSided_;
 };
@@ -116,9 +147,9 @@ class ChartLight {
 } // namespace
 
 IrradianceMap irradianceMap(const Scene& scene, const SceneView& view, std::span<const NodeSwitches> nodes,
-                            std::span<const ShadowedLight> lights) {
+                            std::span<const ShadowedLight> lights, const ShadowedEnvironment* environment) {
   constexpr double kReach = 2; ///< texels around a triangle that may be read with it
-  const LightMapLayout& layout = *lights.front().baked.layout;
+  const LightMapLayout& layout = *(environment ? environment->baked : lights.front().baked).layout;
   const auto texels = static_cast<std::size_t>(layout.width) * static_cast<std::size_t>(layout.height);
   IrradianceMap map{layout.width, layout.height, std::vector<glm::vec3>(texels)};
   std::vector<float> distances(texels, std::numeric_limits<float>::infinity());
@@ -126,7 +157,7 @@ IrradianceMap irradianceMap(const Scene& scene, const SceneView& view, std::span
     const PlacedChart& chart = layout.charts[c];
     const Instance& instance = view.instances[chart.instance];
     const NodeSwitches node = switchesOf(nodes, instance.node);
-    const ChartLight light(scene, instance, node, lights);
+    const ChartLight light(scene, instance, node, lights, environment);
     for (const std::uint32_t triangle : chart.triangles) {
       const FlatTriangle flat = layout.flat({chart.instance, triangle});
       if (signedArea(flat) == 0) continue;
@@ -148,7 +179,7 @@ IrradianceMap irradianceMap(const Scene& scene, const SceneView& view, std::span
             position += weight * world.positions[k];
             normal += weight * world.normals[k];
           }
-          map.texels[texel] = glm::vec3(light.at(position, glm::normalize(normal), {x, y}));
+          map.texels[texel] = glm::vec3(light.at(position, glm::normalize(normal), world.front, {x, y}));
         }
       }
     }

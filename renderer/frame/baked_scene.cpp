@@ -6,6 +6,8 @@
 #include "protocol/bake/bake.h"
 #include "protocol/base/elapsed.h"
 #include "renderer/core/collect.h"
+#include "renderer/environment/frame_sampler.h"
+#include "renderer/frame/environment_of_frame.h"
 #include "renderer/frame/make_report.h"
 #include "renderer/frame/render_frame.h"
 #include "renderer/frame/settle_frame.h"
@@ -24,6 +26,48 @@ std::string keyInStore(const Scene& scene, const ResolvedFrame& frame, int light
   spec.shadow = Shadow{};
   spec.environment = {}; // its sun is that light, if it is
   return id + "-" + bakeKey(id, spec);
+}
+
+/// Changes with all that the share of its light depends on. Empty where the scene has no id.
+std::string keyInStore(const Scene& scene, const FrameSpec& effective, const BakedEnvironment& environment) {
+  const std::string& id = scene.summary.id;
+  if (id.empty()) return {};
+  FrameSpec spec = effective;
+  spec.lights.emplace();
+  spec.shadow = Shadow{};
+  spec.shadow.lightMap = environment.map;
+  spec.shadow.lightMap.samples = Shadow{}.lightMap.samples; // of lights
+  spec.environment = shadowOf(environment.options);
+  spec.ambient = {};
+  return id + "-" + bakeKey(id, spec);
+}
+
+/// Bakes what arrives of the environment, as finely as the first of the lights, or where none is baked as the frame's
+/// shadows.
+Status bakeSurroundings(FrameCaches& caches, SettledFrame& settled, const FrameSpec& asked, const Progress& progress,
+                        BakedScene& baked) {
+  const ResolvedFrame& frame = settled.frame;
+  auto around = environmentOf(caches.environments, settled);
+  if (!around) return around.problems();
+  baked.around = *std::move(around);
+  const auto rays = caches.traced.get(settled.scene, frame.scene);
+  if (!rays) return rays.problems();
+  const bool alone = baked.lights.empty();
+  const std::size_t first = alone ? 0 : static_cast<std::size_t>(baked.lights.front());
+  const SkyLight sky = skyLightOf(&baked.around);
+  const BakedEnvironment environment{sky, frame.spec.environment,
+                                     alone ? frame.spec.shadow.lightMap : (*frame.spec.lights)[first].shadow->lightMap};
+  const std::string key =
+      caches.lightMaps.hasStore() ? keyInStore(*settled.loaded, frame.spec, environment) : std::string();
+  auto found = caches.lightMaps.get({settled.scene, frame.scene, **rays, *frame.spec.lights, frame.nodes, key},
+                                    environment, progress);
+  if (!found) {
+    if (found.problems().front().code == ProblemCode::unavailable) return found.problems();
+    const std::string place = alone ? "/shadow" : shadowPlace(asked, baked.lights.front());
+    return placedAt(place + "/lightMap", found.problems());
+  }
+  baked.environment = *std::move(found);
+  return Done{};
 }
 
 } // namespace
@@ -54,19 +98,32 @@ Result<BakedScene> bakeScene(FrameCaches& caches, const std::shared_ptr<const Sc
   const auto start = std::chrono::steady_clock::now();
   auto settled = settleFrame(scene, bakedParts(spec), nullptr);
   if (!settled) return settled.problems();
-  std::vector<int> lights = lightsToBake(settled->frame);
-  if (lights.empty()) {
+  BakedScene baked;
+  baked.lights = lightsToBake(settled->frame);
+  const bool withSky = settled->frame.spec.environment.shadows == EnvironmentShadows::rays;
+  if (baked.lights.empty() && !withSky) {
     return Problem{ProblemCode::invalidValue, "/shadow/technique",
-                   "There is nothing to bake: no light that casts a shadow has technique lightMap.", "lightMap", ""};
+                   "There is nothing to bake: no light that casts a shadow has technique lightMap, and "
+                   "environment.shadows is not rays.",
+                   "lightMap", ""};
   }
+  const int of = static_cast<int>(baked.lights.size()) + (withSky ? 1 : 0);
   const auto progress = [&](int light, double share) {
-    const auto done = std::find(lights.begin(), lights.end(), light) - lights.begin();
-    return !listener || listener({{}, light, share, static_cast<int>(done), static_cast<int>(lights.size())});
+    const auto done = std::find(baked.lights.begin(), baked.lights.end(), light) - baked.lights.begin();
+    return !listener || listener({{}, light, share, static_cast<int>(done), of});
   };
   auto found = bakedLights(caches.lightMaps, caches.traced, *settled, spec, progress);
   if (!found) return found.problems();
-  return BakedScene{std::move(settled->scene), std::move(settled->frame), std::move(lights), *std::move(found),
-                    millisecondsSince(start)};
+  baked.found = *std::move(found);
+  if (withSky) {
+    const auto skyProgress = [&](double share) { return !listener || listener({{}, {}, share, of - 1, of}); };
+    const Status made = bakeSurroundings(caches, *settled, spec, skyProgress, baked);
+    if (!made) return made.problems();
+  }
+  baked.scene = std::move(settled->scene);
+  baked.frame = std::move(settled->frame);
+  baked.milliseconds = millisecondsSince(start);
+  return baked;
 }
 
 BakeReport reportOf(const BakedScene& baked) {
@@ -74,6 +131,7 @@ BakeReport reportOf(const BakedScene& baked) {
   for (const int light : baked.lights) {
     report.lights.push_back({light, lightMapReport(baked.found[static_cast<std::size_t>(light)])});
   }
+  if (baked.environment.baked) report.environment = lightMapReport(baked.environment);
   report.milliseconds = baked.milliseconds;
   return report;
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 
+#include "renderer/environment/environment.h"
 #include "renderer/frame/light_map_cache.h"
 #include "renderer/frame/settle_frame.h"
 #include "renderer/frame/traced_scene_cache.h"
@@ -21,12 +22,14 @@ Result<std::vector<LightMapCache::Found>> bakedLights(LightMapCache& maps, Trace
                                                       const SettledFrame& settled, const FrameSpec& asked,
                                                       const BakeProgress& progress = {});
 
-/// A scene with light maps for some of its lights.
+/// A scene with light maps for some of its lights, or for its environment.
 struct BakedScene {
   std::shared_ptr<const Scene> scene; ///< posed
   ResolvedFrame frame;
   std::vector<int> lights;                 ///< those that were baked: indices into the effective lights, ascending
-  std::vector<LightMapCache::Found> found; ///< one an effective light, null where it was not baked
+  std::vector<LightMapCache::Found> found; ///< one an effective light, null where it was not baked; empty = none was
+  LightMapCache::Found environment{};      ///< null where it was not baked
+  FrameEnvironment around{};               ///< where it was
   double milliseconds = 0;                 ///< of all of it
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <optional>
 
 #include "protocol/base/lru.h"
@@ -12,7 +13,8 @@
 namespace gnomon {
 
 /// Environments of earlier frames. The least recently used are dropped first once all take more than a budget, and
-/// those of files that are in use nowhere else. For one thread.
+/// those of files that are in use nowhere else. Any thread; one that needs what is not there yet makes it, while others
+/// find what is.
 class EnvironmentCache {
  public:
   explicit EnvironmentCache(std::size_t budgetBytes = std::size_t{1} << 28) : budgetBytes_(budgetBytes) {}
@@ -36,7 +38,11 @@ class EnvironmentCache {
     std::shared_ptr<const Environment> environment;
   };
 
+  std::shared_ptr<const Environment> kept(const std::shared_ptr<const EnvironmentFile>& file, bool withSun);
+  std::shared_ptr<const Environment> kept(const Sky& sky);
+
   std::size_t budgetBytes_;
+  std::mutex mutex_;
   LruList<Entry> entries_;
   LruList<SkyEntry> skies_;
 };

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <set>
 
 #include "protocol/base/elapsed.h"
 #include "protocol/spec/traits.h"
+#include "renderer/bake/bake_environment.h"
 #include "renderer/bake/bake_light_map.h"
 #include "renderer/bake/light_map_file.h"
 #include "renderer/core/stop.h"
@@ -26,6 +28,14 @@ Light shadowOf(const Light& light) {
   kept.blendedCasters = light.shadow->blendedCasters;
   kept.terminator = Terminator::flat; // whichever side of a triangle a map serves
   shadow.shadow = kept;
+  return shadow;
+}
+
+EnvironmentOptions shadowOf(const EnvironmentOptions& environment) {
+  EnvironmentOptions shadow = environment;
+  const EnvironmentOptions plain;
+  shadow.intensity = plain.intensity;
+  shadow.background = plain.background;
   return shadow;
 }
 
@@ -54,7 +64,9 @@ Problem stopped() {
   return {ProblemCode::unavailable, "", "The bake was stopped.", "", ""};
 }
 
-std::shared_ptr<const BakedLight> toBeKept(BakedLight baked) {
+/// Frames look up those of lights.
+std::shared_ptr<const BakedLight> toBeKept(BakedLight baked, bool ofLight) {
+  if (!ofLight) return std::make_shared<const BakedLight>(std::move(baked));
   baked.even = evenBlocks(baked.map);
   baked.evenTriangles = evenTriangles(baked.map, baked.even, baked.layout->corners);
   return std::make_shared<const BakedLight>(std::move(baked));
@@ -84,14 +96,14 @@ class LightMapCache::Claim {
   std::list<Key>::iterator mine_;
 };
 
-bool LightMapCache::isOf(const Key& key, const BakeInput& input, const Light& light) {
-  return key.index == input.index && key.light == light && key.scene.lock() == input.scene &&
+bool LightMapCache::isOf(const Key& key, const BakeInput& input, const Source& source) {
+  return key.index == input.index && key.source == source && key.scene.lock() == input.scene &&
          std::equal(key.nodes.begin(), key.nodes.end(), input.nodes.begin(), input.nodes.end());
 }
 
 /// With the mutex held.
-std::shared_ptr<const BakedLight> LightMapCache::kept(const BakeInput& input, const Light& light) {
-  const Entry* const found = entries_.findIf([&](const Entry& entry) { return isOf(entry.key, input, light); });
+std::shared_ptr<const BakedLight> LightMapCache::kept(const BakeInput& input, const Source& source) {
+  const Entry* const found = entries_.findIf([&](const Entry& entry) { return isOf(entry.key, input, source); });
   return found ? found->baked : nullptr;
 }
 
@@ -99,15 +111,16 @@ std::shared_ptr<const LightMapLayout> LightMapCache::keptLayout(const BakeInput&
                                                                 const LightMapOptions& options) {
   const std::lock_guard lock(mutex_);
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-    const LightMapOptions& other = entry.key.light.shadow->lightMap;
+    const LightMapOptions& other = entry.key.source.light.shadow->lightMap;
     return entry.key.index == input.index && entry.key.scene.lock() == input.scene &&
            other.texelsPerMetre == options.texelsPerMetre && (options.texelsPerMetre || other.size == options.size);
   });
   return found == entries_.end() ? nullptr : found->baked->layout;
 }
 
-Result<LightMapCache::Found> LightMapCache::make(const BakeInput& input, int index, const LightMapOptions& options,
+Result<LightMapCache::Found> LightMapCache::make(const BakeInput& input, const Source& source, const Bake& bake,
                                                  const Progress& progress) {
+  const LightMapOptions& options = source.light.shadow->lightMap;
   const auto start = std::chrono::steady_clock::now();
   BakedLight baked{keptLayout(input, options), {}, 0};
   if (!baked.layout) {
@@ -117,33 +130,63 @@ Result<LightMapCache::Found> LightMapCache::make(const BakeInput& input, int ind
     if (!made) return made.problems();
     baked.layout = std::make_shared<const LightMapLayout>(std::move(*made));
   }
+  const bool ofLight = !source.environment;
   const bool inStore = store_ && !input.keyInStore.empty();
   if (const auto file = inStore ? store_->read(input.keyInStore) : std::nullopt) {
-    if (auto stored = readLightMapFile(*file, baked.layout)) {
-      return Found{toBeKept(*std::move(stored)), true};
+    const BakedPlanes planes = ofLight ? BakedPlanes::one : BakedPlanes::rgb;
+    if (auto stored = readLightMapFile(*file, baked.layout, planes)) {
+      return Found{toBeKept(*std::move(stored), ofLight), true};
     }
   }
-  // Towards a light without an end: its cone and range decide where it shines, and not what its shadow is.
-  const CameraView camera{.eye = fromAfar(input.traced.view())};
-  std::vector<Light> lights(input.lights.begin(), input.lights.end());
-  Light& open = lights[static_cast<std::size_t>(index)];
-  open.range.reset();
-  if (traitsOf(open.type).hasCone) open.type = LightType::point;
-  const TraceInput rays{input.traced, camera, 1, 1, lights, input.nodes};
-  auto map = bakeLightMap(rays, index, *baked.layout, options.samples, progress);
-  if (!map) return stopped();
-  baked.map = *std::move(map);
+  auto maps = bake({.eye = fromAfar(input.traced.view())}, *baked.layout);
+  if (!maps) return stopped();
+  baked.map = std::move(maps->front());
+  if (!ofLight) baked.greenAndBlue = {std::move((*maps)[1]), std::move((*maps)[2])};
   baked.milliseconds = millisecondsSince(start);
   if (inStore) store_->write(input.keyInStore, lightMapFile(baked));
-  return Found{toBeKept(std::move(baked)), false};
+  return Found{toBeKept(std::move(baked), ofLight), false};
 }
 
 Result<LightMapCache::Found> LightMapCache::get(const BakeInput& input, int index, const Progress& progress) {
+  const Source source{shadowOf(input.lights[static_cast<std::size_t>(index)])};
+  const auto bake = [&](const CameraView& camera, const LightMapLayout& layout) {
+    // Towards a light without an end: its cone and range decide where it shines, and not what its shadow is.
+    std::vector<Light> lights(input.lights.begin(), input.lights.end());
+    Light& open = lights[static_cast<std::size_t>(index)];
+    open.range.reset();
+    if (traitsOf(open.type).hasCone) open.type = LightType::point;
+    const TraceInput rays{input.traced, camera, 1, 1, lights, input.nodes};
+    std::optional<std::vector<LightMap>> maps;
+    auto map = bakeLightMap(rays, index, layout, source.light.shadow->lightMap.samples, progress);
+    if (map) maps.emplace().push_back(*std::move(map));
+    return maps;
+  };
+  return get(input, source, bake, progress);
+}
+
+Result<LightMapCache::Found> LightMapCache::get(const BakeInput& input, const BakedEnvironment& environment,
+                                                const Progress& progress) {
+  Source source{{}, shadowOf(environment.options)};
+  source.light.shadow = Shadow{};
+  LightMapOptions& map = source.light.shadow->lightMap;
+  map = environment.map;
+  map.samples = LightMapOptions{}.samples; // of lights
+  const auto bake = [&](const CameraView& camera, const LightMapLayout& layout) {
+    const TraceInput rays{input.traced, camera, 1, 1, {}, input.nodes};
+    std::optional<std::vector<LightMap>> maps;
+    auto baked = bakeEnvironment(rays, environment.sky, layout, environment.options.samples, progress);
+    if (baked) maps.emplace(std::make_move_iterator(baked->begin()), std::make_move_iterator(baked->end()));
+    return maps;
+  };
+  return get(input, source, bake, progress);
+}
+
+Result<LightMapCache::Found> LightMapCache::get(const BakeInput& input, const Source& source, const Bake& bake,
+                                                const Progress& progress) {
   constexpr std::chrono::milliseconds kAskAgain{20};
-  const Light light = shadowOf(input.lights[static_cast<std::size_t>(index)]);
-  const Key key{input.scene, input.index, light, {input.nodes.begin(), input.nodes.end()}};
+  const Key key{input.scene, input.index, source, {input.nodes.begin(), input.nodes.end()}};
   const auto beingMade = [&] {
-    return std::any_of(making_.begin(), making_.end(), [&](const Key& each) { return isOf(each, input, light); });
+    return std::any_of(making_.begin(), making_.end(), [&](const Key& each) { return isOf(each, input, source); });
   };
   std::unique_lock lock(mutex_);
   while (beingMade()) {
@@ -153,11 +196,11 @@ Result<LightMapCache::Found> LightMapCache::get(const BakeInput& input, int inde
     if (progress && !progress(0)) return stopped();
     lock.lock();
   }
-  if (auto found = kept(input, light)) return Found{std::move(found), true};
+  if (auto found = kept(input, source)) return Found{std::move(found), true};
   const Claim claim(*this, key);
   lock.unlock();
 
-  auto made = make(input, index, light.shadow->lightMap, progress);
+  auto made = make(input, source, bake, progress);
   if (!made) return made;
   lock.lock();
   entries_.add({key, made->baked});

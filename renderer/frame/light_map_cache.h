@@ -1,6 +1,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <functional>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -8,8 +9,10 @@
 
 #include "protocol/base/lru.h"
 #include "protocol/base/result.h"
+#include "protocol/spec/environment_options.h"
 #include "renderer/bake/baked_light.h"
 #include "renderer/core/stop.h"
+#include "renderer/environment/frame_sampler.h"
 #include "renderer/frame/light_map_store.h"
 #include "renderer/rays/trace.h"
 
@@ -18,6 +21,9 @@ namespace gnomon {
 /// The light without what its shadow does not depend on: two lights that are the same then share a map.
 Light shadowOf(const Light& light);
 
+/// The same of an environment: those that are the same share a map.
+EnvironmentOptions shadowOf(const EnvironmentOptions& environment);
+
 /// What a bake takes place on.
 struct BakeInput {
   std::shared_ptr<const Scene> scene; ///< posed
@@ -25,12 +31,19 @@ struct BakeInput {
   const TracedScene& traced;
   std::span<const Light> lights;       ///< effective
   std::span<const NodeSwitches> nodes; ///< one a node of the file
-  std::string keyInStore{};            ///< of the light that is asked for; empty = its map is not kept in a store
+  std::string keyInStore{};            ///< of what is asked for; empty = its map is not kept in a store
 };
 
-/// Light maps of earlier frames, the least recently used dropped first once they take more than a budget, and those of
-/// scenes that are in use nowhere else. A map serves as long as all that its shadow depends on is the same (shadowOf).
-/// Any thread; one that asks for a map waits while another thread makes that map.
+/// An environment of whose light the share that arrives is baked.
+struct BakedEnvironment {
+  const SkyLight& sky;
+  const EnvironmentOptions& options; ///< effective
+  const LightMapOptions& map;        ///< how fine it is
+};
+
+/// Light maps of earlier frames and bakes, the least recently used dropped first once they take more than a budget, and
+/// those of scenes that are in use nowhere else. A map serves as long as all that its shadow depends on is the same
+/// (shadowOf). Any thread; one that asks for a map waits while another thread makes that map.
 class LightMapCache {
  public:
   /// `store`: also keeps what is baked, and is asked before anything is; may be nullptr.
@@ -49,11 +62,21 @@ class LightMapCache {
   /// also asked while this waits for another thread; where it asks to stop, a problem of code unavailable.
   Result<Found> get(const BakeInput& input, int light, const Progress& progress = {});
 
+  /// The same of an environment; the problem's pointer begins at the options of the map.
+  Result<Found> get(const BakeInput& input, const BakedEnvironment& environment, const Progress& progress = {});
+
  private:
+  /// What a shadow depends on; the rest has its defaults.
+  struct Source {
+    Light light; ///< of an environment: one that has but the options of its map
+    std::optional<EnvironmentOptions> environment{};
+
+    bool operator==(const Source&) const = default;
+  };
   struct Key {
     std::weak_ptr<const Scene> scene;
     int index = 0;
-    Light light; ///< what its shadow depends on; the rest as a default light has it
+    Source source;
     std::vector<NodeSwitches> nodes;
   };
   struct Entry {
@@ -63,10 +86,14 @@ class LightMapCache {
 
   class Claim;
 
-  static bool isOf(const Key& key, const BakeInput& input, const Light& light);
-  std::shared_ptr<const BakedLight> kept(const BakeInput& input, const Light& light);
+  /// Bakes as seen from a camera that sees all of the scene; nothing where it was stopped.
+  using Bake = std::function<std::optional<std::vector<LightMap>>(const CameraView&, const LightMapLayout&)>;
+
+  static bool isOf(const Key& key, const BakeInput& input, const Source& source);
+  std::shared_ptr<const BakedLight> kept(const BakeInput& input, const Source& source);
   std::shared_ptr<const LightMapLayout> keptLayout(const BakeInput& input, const LightMapOptions& options);
-  Result<Found> make(const BakeInput& input, int index, const LightMapOptions& options, const Progress& progress);
+  Result<Found> get(const BakeInput& input, const Source& source, const Bake& bake, const Progress& progress);
+  Result<Found> make(const BakeInput& input, const Source& source, const Bake& bake, const Progress& progress);
   void drop();
 
   std::size_t budgetBytes_;

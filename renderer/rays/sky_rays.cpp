@@ -76,6 +76,14 @@ bool TracedSky::receives(std::uint32_t instance) const {
   return state_->instances[instance].receives;
 }
 
+SurfacePoint TracedSky::pointInFront(const PlacedTriangle& of, const glm::dvec2& weights) const {
+  const TracedScene::Tree& tree = state_->casters.tree;
+  const Triangle triangle = tree.triangle(of.instance, of.triangle);
+  const glm::dvec3 normal = unitAlong(triangle.area()) * (tree.mirrored[of.instance] != 0 ? -1.0 : 1.0);
+  const Barycentric at{weights.x, weights.y};
+  return {at.mix(triangle.a, triangle.b, triangle.c), glm::vec3(normal), of.instance, of.triangle};
+}
+
 glm::dvec3 TracedSky::shadingNormal(const SurfacePoint& point) const {
   return gnomon::shadingNormal(state_->casters.tree, point);
 }

@@ -34,6 +34,9 @@ class TracedSky {
 
   bool receives(std::uint32_t instance) const; ///< whether it shows shadows
 
+  /// A point of a triangle: `weights`, those of its second and third corner. Its normal is on the front side.
+  SurfacePoint pointInFront(const PlacedTriangle& triangle, const glm::dvec2& weights) const;
+
   /// By which a picture shades a point, without a normal map; unit length. REQUIRES: a surface.
   glm::dvec3 shadingNormal(const SurfacePoint& point) const;
 

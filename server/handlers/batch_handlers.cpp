@@ -5,6 +5,7 @@
 #include "protocol/base/text.h"
 #include "protocol/evaluation/evaluation.h"
 #include "protocol/json/json_codec.h"
+#include "protocol/spec/debug_light.h"
 #include "server/handlers/event_reply.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/work.h"
@@ -29,6 +30,12 @@ constexpr int kBakeRetrySeconds = 5; ///< where the most bakes run
 
 Problem unknownBake(const BakeName& name) {
   return {ProblemCode::notFound, "key", "No bake with this key is done.", "", asciiExcerpt(name.key)};
+}
+
+/// As bakeFile takes it.
+Result<std::optional<int>> bakedLightOf(const Query& query, int lights) {
+  if (queryText(query, "light") == std::string_view(kEnvironmentName)) return std::optional(kEnvironmentLight);
+  return queryNumber(query, "light", 0, lights - 1, "This is no index of a light, nor environment.");
 }
 
 BakeName nameOf(const RouteCall& call) {
@@ -119,8 +126,7 @@ HttpReply getBake(Services& services, RouteCall call) {
   if (const auto there = services.store.contains(name.scene); !there) return problemReply(there.problems(), requestId);
   const auto spec = services.bakeBook.find(name);
   if (!spec) return problemReply({unknownBake(name)}, requestId);
-  const auto light =
-      queryNumber(call.request.query, "light", 0, services.limits.maxLights - 1, "This is no index of a light.");
+  const auto light = bakedLightOf(call.request.query, services.limits.maxLights);
   if (!light) return problemReply(light.problems(), requestId);
   const auto accept = headerValue(call.request.headers, "accept");
   const auto form = preferred(accept, kBakeFileTypes);

@@ -62,7 +62,7 @@ struct Order {
   double queuedMilliseconds = 0; ///< that it waited in the front
   std::string mediaType{};       ///< of the result: one that the kind can be sent as
   std::string boundary{};        ///< between the parts of a multipart result
-  std::optional<int> light{};    ///< of a bakeFile
+  std::optional<int> light{};    ///< of a bakeFile, as Baker::file takes it
   std::string traceId{};         ///< of the request, for the log
 
   std::optional<SensorRange> depthRange{}; ///< of a frame: its depths as a sensor of this range has them

@@ -25,7 +25,7 @@ class BakeEvents {
  private:
   const OrderCall& call_;
   Clock::time_point sentAt_{};
-  int light_ = -1;
+  std::optional<int> light_ = -1;
 };
 
 } // namespace
@@ -36,7 +36,8 @@ Answer bakeOrder(WorkContext& context, const OrderCall& call) {
   auto loaded = sceneOf(context, call);
   if (auto* answer = std::get_if<Answer>(&loaded)) return std::move(*answer);
   ByteLease memory(context.frameMemory);
-  if (auto taken = takeMemory(memory, context.frameMemory, bakeBytes(*spec), "/shadow/lightMap", call); !taken) {
+  const std::size_t bytes = bakeBytes(*spec, summaryOf(*std::get<LoadedScene>(loaded).scene));
+  if (auto taken = takeMemory(memory, context.frameMemory, bytes, "/shadow/lightMap", call); !taken) {
     return {.problems = taken.problems()};
   }
   const std::string key = bakeKey(call.order.scene, *spec);
@@ -64,7 +65,8 @@ Answer bakeFileOrder(WorkContext& context, const OrderCall& call) {
   auto loaded = sceneOf(context, call);
   if (auto* answer = std::get_if<Answer>(&loaded)) return std::move(*answer);
   ByteLease memory(context.frameMemory);
-  const std::size_t bytes = std::min(kParts * bakeBytes(*spec), context.frameMemory.total());
+  const std::size_t bytes =
+      std::min(kParts * bakeBytes(*spec, summaryOf(*std::get<LoadedScene>(loaded).scene)), context.frameMemory.total());
   if (auto taken = takeMemory(memory, context.frameMemory, bytes, "/shadow/lightMap", call); !taken) {
     return {.problems = taken.problems()};
   }

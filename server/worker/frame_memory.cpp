@@ -14,6 +14,7 @@ namespace {
 constexpr std::size_t kFixed = 20u << 20; ///< of any frame: lists of triangles, textures that it is first to read
 constexpr std::size_t kTracedPixel = 6;   ///< what rays are sent for, and where masks lie
 constexpr std::size_t kBakedTexel = 6;    ///< its share while it is found, and in the map
+constexpr std::size_t kBakedSky = 18;     ///< the same of an environment: red, green and blue
 
 /// What a device holds until the pictures are made, in bytes.
 struct DeviceBytes {
@@ -184,7 +185,7 @@ std::size_t evaluationBytes(const Evaluation& evaluation, const SceneSummary& sc
   return most;
 }
 
-std::size_t bakeBytes(const FrameSpec& spec) {
+std::size_t bakeBytes(const FrameSpec& spec, const SceneSummary& scene) {
   const auto sideOf = [](const Shadow& shadow) {
     return traitsOf(shadow.technique).baked ? mapSide(shadow.lightMap) : 0;
   };
@@ -192,7 +193,9 @@ std::size_t bakeBytes(const FrameSpec& spec) {
   if (spec.lights) {
     for (const Light& light : *spec.lights) side = std::max(side, light.shadow ? sideOf(*light.shadow) : 0);
   }
-  return side * side * kBakedTexel;
+  if (spec.environment.shadows == EnvironmentShadows::none) return side * side * kBakedTexel;
+  side = std::max(side, mapSide(spec.shadow.lightMap));
+  return side * side * (kBakedTexel + kBakedSky) + environmentBytes(spec, scene);
 }
 
 } // namespace gnomon

@@ -23,6 +23,6 @@ std::size_t frameBytes(const FrameSpec& spec, const SceneSummary& scene, DeviceK
 std::size_t evaluationBytes(const Evaluation& evaluation, const SceneSummary& scene, DeviceKind device);
 
 /// What baking a spec takes at most, one light after the other.
-std::size_t bakeBytes(const FrameSpec& spec);
+std::size_t bakeBytes(const FrameSpec& spec, const SceneSummary& scene);
 
 } // namespace gnomon

@@ -30,6 +30,31 @@ class Bake(AgainstServer):
             else:
                 self.assertEqual(struct.unpack("<4sII", data[:12]), (b"glTF", 2, len(data)))
 
+    def test_a_sky_here_and_there(self):
+        sky = ["--environment", "sky", "--sky-shadows", "--sky-samples", "1", *BAKE]
+        for light in ([], ["--light", "environment"]):
+            files = []
+            for where in ([], ["--server", self.url]):
+                path, report = self.folder / "sky.glb", self.folder / "report.json"
+                run = gnomon("bake", BOX, *sky, *light, "-o", str(path), "--report", str(report), *where)
+                self.assert_ends(run, OK)
+                self.assertGreater(json.loads(report.read_text())["environment"]["charts"], 0)
+                files.append(path.read_bytes())
+            self.assertEqual(*files)
+
+    def test_a_picture_lights_a_bake(self):
+        picture = self.folder / "white.hdr"
+        rows = bytes([128, 128, 128, 129]) * (64 * 32)
+        picture.write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 32 +X 64\n" + rows)
+        files = []
+        for where in ([], ["--server", self.url]):
+            path = self.folder / "lit.png"
+            size = ["--set", "shadow.lightMap.size=128"]
+            lit = ["--environment", str(picture), "--sky-shadows", "--sky-samples", "1", "--set", "lights=[]", *size]
+            self.assert_ends(gnomon("bake", BOX, *lit, "-o", str(path), *where), OK)
+            files.append(path.read_bytes())
+        self.assertEqual(*files)
+
     def test_what_is_wrong_with_a_bake_is_told(self):
         out = ["-o", str(self.folder / "baked.glb")]
         for arguments, said in (
@@ -37,11 +62,13 @@ class Bake(AgainstServer):
             ([*BAKE, "--set", "shadow.lightMap.size=0"], ["--set shadow.lightMap.size", "16..8192"]),
             ([*BAKE, "--set", "shadow.lightMap.texelsPerMetre=1000000"], ["8192"]),
             ([*BAKE, "--light", "3"], ["/light"]),
+            ([*BAKE, "--light", "environment"], ["/light", "was not baked"]),
         ):
             for where in ([], ["--server", self.url]):
                 self.assert_ends(gnomon("bake", BOX, *arguments, *out, *where), PROBLEM, *said)
         self.assert_ends(gnomon("bake", BOX, *BAKE, "-o", "baked.obj"), USAGE)
         self.assert_ends(gnomon("bake", BOX, *BAKE), USAGE)
+        self.assert_ends(gnomon("bake", BOX, *BAKE, "--light", "sun", *out), USAGE)
 
 
 if __name__ == "__main__":

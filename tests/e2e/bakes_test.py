@@ -224,6 +224,34 @@ class Files(BakesTest):
         for field in ("triangles", "instances", "boundsMin", "boundsMax"):
             self.assertEqual(upload.json()[field], original[field])
 
+    def test_a_sky_is_baked_where_rays_to_it_are_asked_for(self):
+        sky = {"sky": {"sun": {"elevationDegrees": 40}}, "shadows": "rays", "samples": 1}
+        reply = self.bake({"environment": sky, "shadow": BAKED}, "text/event-stream")
+        events = events_of(reply.body.decode())
+        self.assertEqual(events[-1][0], "result", reply.body)
+        report, last = events[-1][1], events[-2][1]
+        self.assertNotIn("light", last)
+        self.assertEqual((last["done"], last["of"]), (1, 2))
+        self.assertEqual([each["light"] for each in report["lights"]], [0])
+        size = tuple(report["environment"][side] for side in ("width", "height"))
+        pictures = [self.file(report["key"], "image/png", query) for query in ("", "?light=0", "?light=environment")]
+        self.assertEqual([png_size(picture.body) for picture in pictures], 3 * [size])
+        self.assertEqual(pictures[0].body, pictures[1].body)
+        self.assertNotEqual(pictures[0].body, pictures[2].body)
+        exr = self.file(report["key"], "image/x-exr").body
+        for layer in (b"light0.Y\0", b"environment.R\0", b"environment.G\0", b"environment.B\0"):
+            self.assertIn(layer, exr)
+        glbs = [self.file(report["key"], "model/gltf-binary", query) for query in ("", "?light=0", "?light=environment")]
+        light = [
+            self.glb(glb.body)[0]["materials"][0]["extensions"]["MOZ_lightmap"]["intensity"] for glb in glbs
+        ]
+        self.assertLess(light[2], light[1], "the sun is brighter than its sky")
+        self.assertLess(light[1], light[0])
+        without = self.bake({"environment": sky | {"shadows": "none"}, "shadow": BAKED}).json()
+        self.assertNotIn("environment", without)
+        self.assertNotEqual(without["key"], report["key"])
+        self.assert_problem(self.file(without["key"], "image/png", "?light=environment"), 400, "/light")
+
     def test_what_can_not_be_sent_is_refused(self):
         key = self.bake(self.two).json()["key"]
         self.assert_problem(self.file(key, "image/gif"), 406)

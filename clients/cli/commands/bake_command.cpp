@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <iostream>
 #include <memory>
 
@@ -8,6 +9,7 @@
 #include "clients/cli/files/scene_file.h"
 #include "clients/cli/render/rendering.h"
 #include "clients/cli/spec/spec_arguments.h"
+#include "protocol/spec/debug_light.h"
 
 namespace gnomon::cli {
 namespace {
@@ -18,7 +20,7 @@ struct BakeOptions {
   std::string output;
   std::string spec;   // a file, "-" = standard input, empty = none
   std::string report; // a file, "-" = standard output, empty = none
-  std::optional<int> light;
+  std::string light;  // an index, "environment", or empty = all
   SpecArguments arguments;
   WhereOptions where;
 };
@@ -30,6 +32,19 @@ std::optional<BakeFile> kindOf(const std::string& output) {
   return std::nullopt;
 }
 
+std::optional<int> lightOf(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  if (text == kEnvironmentName) return kEnvironmentLight;
+  int index = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+  if (error != std::errc() || end != text.data() + text.size() || index < 0) return std::nullopt;
+  return index;
+}
+
+std::string checkBakedLight(const std::string& text) {
+  return lightOf(text) ? "" : "needs the index of a light, or environment";
+}
+
 std::string checkBakeOutput(const std::string& output) {
   return kindOf(output) ? "" : "needs a name that ends in .glb, .exr or .png";
 }
@@ -38,7 +53,7 @@ Result<Baked> bakeScene(const BakeOptions& options, const FrameSpec& spec, Progr
   progress.stage("reading " + options.scene);
   const auto bundle = readSceneFile(options.scene, options.reading, requestFiles(spec, options.arguments.environment));
   if (!bundle) return bundle.problems();
-  const BakeOrder order{spec, *kindOf(options.output), options.light};
+  const BakeOrder order{spec, *kindOf(options.output), lightOf(options.light)};
   if (options.where.server.empty()) return bakeHere(*bundle, order, options.where.backend, progress);
   const auto remote = remoteOf(options.where);
   if (!remote) return remote.problems();
@@ -72,9 +87,10 @@ Subcommand addBakeCommand(CLI::App& app) {
                    "share of light alone")
       ->required()
       ->check(checkBakeOutput);
-  addSpecFlag(*command, options->spec, ". Lights of technique lightMap are baked");
-  command->add_option("--light", options->light, "One of the baked lights, by its index")
-      ->check(CLI::NonNegativeNumber);
+  addSpecFlag(*command, options->spec,
+              ". Lights of technique lightMap are baked, and the environment where environment.shadows is rays");
+  command->add_option("--light", options->light, "One of the baked lights, by its index, or environment")
+      ->check(checkBakedLight);
   command->add_option("--report", options->report, "Write the bake's report as JSON; - is standard output");
   addPictureFlags(*command, options->arguments);
   addWhereFlags(*command, options->where, options->arguments);

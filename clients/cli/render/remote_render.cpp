@@ -8,6 +8,7 @@
 #include "protocol/base/bytes.h"
 #include "protocol/evaluation/evaluation.h"
 #include "protocol/json/json_codec.h"
+#include "protocol/spec/debug_light.h"
 
 namespace gnomon::cli {
 namespace {
@@ -81,8 +82,11 @@ Result<Baked> bakeThere(const Remote& remote, const SceneBundle& bundle, const B
   if (!report) return report.problems();
   progress.stage("fetching the file");
   HttpCall fetch;
-  fetch.path =
-      "/v1/scenes/" + id + "/bakes/" + report->key + (order.light ? "?light=" + std::to_string(*order.light) : "");
+  fetch.path = "/v1/scenes/" + id + "/bakes/" + report->key;
+  if (order.light) {
+    fetch.path +=
+        "?light=" + (*order.light == kEnvironmentLight ? std::string(kEnvironmentName) : std::to_string(*order.light));
+  }
   fetch.headers = {{"Accept", std::string(kBakeFileTypes[static_cast<std::size_t>(order.kind)])}};
   const auto reply = callPatiently(remote, fetch, progress);
   if (!reply) return reply.problems();

@@ -102,7 +102,7 @@ class AsyncSession:
         return await self._run(lambda: self.session.bake(scene, spec, **fields))
 
     async def baked(self, scene: SceneLike, key: str, media_type: str = "model/gltf-binary",
-                    light: Optional[int] = None) -> bytes:
+                    light: Union[int, str, None] = None) -> bytes:
         return await self._run(lambda: self.session.baked(scene, key, media_type, light))
 
     @method_of(keywords.sequence)

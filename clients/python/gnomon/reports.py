@@ -984,12 +984,15 @@ class BakeReport(TypedDict, total=False):
         Names the bake: SHA-256 of the scene and of every field that a bake depends on.
     lights:
         The lights of technique lightMap.
+    environment:
+        With `environment.shadows` rays: the texture that holds what share of the environment's light arrives.
     milliseconds:
         Time of the whole bake. Unit: milliseconds.
     """
 
     key: str
     lights: List["BakedLightReport"]
+    environment: "LightMapReport"
     milliseconds: float
 
 

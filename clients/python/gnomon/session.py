@@ -136,8 +136,8 @@ class Session:
         return cast(BakeReport, report)
 
     def baked(self, scene: SceneLike, key: str, media_type: str = "model/gltf-binary",
-              light: Optional[int] = None) -> bytes:
-        """A bake as a file: model/gltf-binary, image/png or image/x-exr."""
+              light: Union[int, str, None] = None) -> bytes:
+        """A bake as a file: model/gltf-binary, image/png or image/x-exr; of one light, or of "environment"."""
         query = "" if light is None else f"?light={light}"
         return self._scenes.request(scene, "GET", f"/bakes/{quote(key)}{query}", Accept=media_type).body
 

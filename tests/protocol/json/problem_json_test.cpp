@@ -127,6 +127,25 @@ TEST(BakeJson, WhatOnlyThePictureDependsOnDoesNotChangeTheKey) {
   EXPECT_NE(bakeKey("another", {}), key);
 }
 
+TEST(BakeKey, RaysToTheEnvironmentChangeItOnlyWhereTheyAreAskedFor) {
+  const std::string key = bakeKey("scene", {});
+  for (
+      const char* same :
+      {R"({"environment": {"samples": 8}})", R"({"ambient": {"intensity": 1}})",
+       R"({"environment": {"shadows": "none", "samples": 8, "background": "blurred"}, "ambient": {"intensity": 1}})"}) {
+    EXPECT_EQ(bakeKey("scene", specOf(same)), key) << same;
+  }
+  const char* traced = R"({"environment": {"shadows": "rays"}})";
+  EXPECT_NE(bakeKey("scene", specOf(traced)), key);
+  for (const char* other : {R"({"environment": {"shadows": "rays", "samples": 8}})",
+                            R"({"environment": {"shadows": "rays"}, "ambient": {"intensity": 1}})"}) {
+    EXPECT_NE(bakeKey("scene", specOf(other)), bakeKey("scene", specOf(traced))) << other;
+  }
+  EXPECT_EQ(
+      bakeKey("scene", specOf(R"({"environment": {"shadows": "rays", "sky": {}}})")),
+      bakeKey("scene", specOf(R"({"environment": {"shadows": "rays", "sky": {}}, "ambient": {"intensity": 1}})")));
+}
+
 TEST(BakeJson, AReportReadsBackAndWhatIsNoneIsNone) {
   BakeReport report;
   report.key = "k";
@@ -136,6 +155,11 @@ TEST(BakeJson, AReportReadsBackAndWhatIsNoneIsNone) {
   EXPECT_EQ(read->lights[0].light, 2);
   EXPECT_EQ(read->lights[0].lightMap.width, 64);
   for (const char* none : {"", "{", "[]", "{}", R"({"lights": []})"}) EXPECT_FALSE(readBakeReport(none)) << none;
+  report.lights.clear();
+  report.environment = {.width = 32};
+  const auto alone = readBakeReport(toJson(report).dump());
+  ASSERT_TRUE(alone && alone->environment);
+  EXPECT_EQ(alone->environment->width, 32);
 }
 
 Job sample() {

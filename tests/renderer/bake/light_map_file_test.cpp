@@ -24,6 +24,18 @@ TEST(LightMapFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(read->milliseconds, 12.5);
 }
 
+TEST(LightMapFile, AnEnvironmentHasThreePlanes) {
+  BakedLight original = baked();
+  original.greenAndBlue = {LightMap{3, 2, {6, 5, 4, 3, 2, 1}}, LightMap{3, 2, {9, 99, 999, 9999, 0, 65535}}};
+  const Bytes file = lightMapFile(original);
+  const auto read = readLightMapFile(file, original.layout, BakedPlanes::rgb);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->map.shares, original.map.shares);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(read->greenAndBlue[i].shares, original.greenAndBlue[i].shares);
+  EXPECT_FALSE(readLightMapFile(file, original.layout));
+  EXPECT_FALSE(readLightMapFile(lightMapFile(baked()), original.layout, BakedPlanes::rgb));
+}
+
 TEST(LightMapFile, AnyByteThatDiffersIsNoticed) {
   const BakedLight original = baked();
   const Bytes file = lightMapFile(original);

@@ -66,9 +66,50 @@ TEST_F(BakeScene, TellsProgressOfEachLightInTurn) {
   EXPECT_EQ(steps.back().light, 2);
   EXPECT_EQ(steps.back().share, 1);
   for (const BakeStep& step : steps) {
-    EXPECT_EQ(step.done, step.light - 1);
+    EXPECT_EQ(step.done, step.light.value() - 1);
     EXPECT_EQ(step.of, 2);
   }
+}
+
+TEST_F(BakeScene, TheEnvironmentIsBakedAfterTheLightsAndReused) {
+  FrameSpec asked = lightMapSpec(64);
+  EXPECT_FALSE(bake(asked)->environment) << "no rays to it are asked for";
+  asked.environment.shadows = EnvironmentShadows::rays;
+  asked.environment.sky = Sky{};
+  asked.environment.extractSun = SunExtraction::removed;
+  std::vector<BakeStep> steps;
+  const auto first = bake(asked, [&](const BakeStep& step) {
+    steps.push_back(step);
+    return true;
+  });
+  ASSERT_TRUE(first) << first.problems().front().detail;
+  ASSERT_TRUE(first->environment);
+  EXPECT_FALSE(first->environment->reused);
+  EXPECT_EQ(first->environment->width, first->lights[0].lightMap.width);
+  EXPECT_GT(first->environment->bytes, 0u);
+  ASSERT_FALSE(steps.empty());
+  EXPECT_EQ(steps.back().light, std::nullopt);
+  EXPECT_EQ(steps.back().share, 1);
+  EXPECT_EQ(steps.back().done, 1);
+  EXPECT_EQ(steps.back().of, 2);
+
+  FrameSpec same = asked;
+  same.environment.intensity = 1e-4;
+  same.ambient.intensity = 2;
+  EXPECT_TRUE(bake(same)->environment->reused);
+  same.lights->clear();
+  const auto alone = bake(same);
+  ASSERT_TRUE(alone) << alone.problems().front().detail;
+  EXPECT_TRUE(alone->lights.empty());
+  EXPECT_TRUE(alone->environment->reused);
+  FrameSpec finer = asked;
+  finer.environment.samples = 2;
+  EXPECT_FALSE(bake(finer)->environment->reused);
+  FrameSpec turned = asked;
+  turned.environment.rotationDegrees = 30;
+  EXPECT_FALSE(bake(turned)->environment->reused);
+  same.shadow.lightMap.texelsPerMetre = 1e6;
+  EXPECT_EQ(bake(same).problems().front().pointer, "/shadow/lightMap/texelsPerMetre");
 }
 
 TEST_F(BakeScene, StopsSoonAndLeavesNothingBehind) {
