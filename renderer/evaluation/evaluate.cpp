@@ -52,10 +52,13 @@ class Run {
       row.variant = variant.patch;
       row.name = variant.name;
       auto subject = subjectOf(scene, variant, i, renderer);
-      if (subject) {
-        subjects_.push_back(std::move(*subject));
-      } else {
+      if (!subject) {
         setProblems(row, subject.problems());
+      } else if (evaluation.path && measuresEnvironment(*subject)) {
+        setProblems(row, {{ProblemCode::unsupportedFeature, "/debug/light",
+                           "Shimmer is measured of lights, not of the environment.", "no path, or a light", ""}});
+      } else {
+        subjects_.push_back(std::move(*subject));
       }
     }
   }
@@ -70,7 +73,8 @@ class Run {
       if (const Status done = measureGroup(group, steps); !done) return done.problems();
     }
     if (const Status done = time(steps); !done) return done.problems();
-    markPareto(rows_);
+    const bool shares = std::any_of(subjects_.begin(), subjects_.end(), measuresEnvironment);
+    markPareto(rows_, shares ? &ErrorMetrics::rms : &ErrorMetrics::misclassified);
     return EvaluationReport{std::move(rows_), truth_.report(), renderer};
   }
 
@@ -152,18 +156,18 @@ bool measured(const EvaluationRow& row) {
   return row.milliseconds && row.metrics;
 }
 
-bool beats(const EvaluationRow& a, const EvaluationRow& b) {
+bool beats(const EvaluationRow& a, const EvaluationRow& b, double ErrorMetrics::*error) {
   const double timeA = *a.milliseconds, timeB = *b.milliseconds;
-  const double errorA = a.metrics->misclassified, errorB = b.metrics->misclassified;
+  const double errorA = (*a.metrics).*error, errorB = (*b.metrics).*error;
   return timeA <= timeB && errorA <= errorB && (timeA < timeB || errorA < errorB);
 }
 
 } // namespace
 
-void markPareto(std::vector<EvaluationRow>& rows) {
+void markPareto(std::vector<EvaluationRow>& rows, double ErrorMetrics::*error) {
   for (EvaluationRow& row : rows) {
     row.pareto = measured(row) && std::none_of(rows.begin(), rows.end(), [&](const EvaluationRow& other) {
-                   return measured(other) && beats(other, row);
+                   return measured(other) && beats(other, row, error);
                  });
   }
 }

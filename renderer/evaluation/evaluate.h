@@ -52,14 +52,15 @@ struct EvaluationListener {
 /// strength, a sample a pixel, with the maps that the variant's own frame has; then the time of all as they are asked
 /// for, warm, in rounds, so that a machine's drift affects all of them equally. Variants that see the same from the
 /// same place share one reference. Any thread; the tools are called on it. A variant that cannot be drawn is a row with
-/// its problem. A problem of code `unavailable` where the listener asked to stop; problems of the evaluation's own spec
-/// point into /spec.
+/// its problem. Where `debug.light` names the environment, its share is measured and no light's shadow, against
+/// kEnvironmentReferenceSamples rays at least; then rows are ranked by rms. A problem of code `unavailable` where the
+/// listener asked to stop; problems of the evaluation's own spec point into /spec.
 Result<EvaluationReport> evaluate(const std::shared_ptr<const Scene>& scene, const Evaluation& evaluation,
                                   const RendererInfo& renderer, const EvaluationTools& tools,
                                   const EvaluationListener& listener = {});
 
-/// Says of every row whether it is on the front of speed against error: nothing that was measured is faster and
-/// misclassifies no more, or misclassifies less and is no slower. Rows without figures are not.
-void markPareto(std::vector<EvaluationRow>& rows);
+/// Says of every row whether it is on the front of speed against error: nothing that was measured is faster and has
+/// no more of that error, or has less and is no slower. Rows without figures are not.
+void markPareto(std::vector<EvaluationRow>& rows, double ErrorMetrics::*error = &ErrorMetrics::misclassified);
 
 } // namespace gnomon

@@ -5,6 +5,7 @@
 
 #include "protocol/base/elapsed.h"
 #include "renderer/evaluation/evaluate.h"
+#include "renderer/frame/environment_of_frame.h"
 #include "renderer/frame/settle_frame.h"
 #include "renderer/reference/error_measures.h"
 #include "renderer/resolve/check_frame.h"
@@ -26,6 +27,12 @@ FrameSpec truthKey(const Subject& subject) {
   key.scene = spec.scene;
   key.materialVariant = spec.materialVariant;
   key.animation = spec.animation;
+  if (measuresEnvironment(subject)) {
+    key.environment = spec.environment;
+    key.environment.samples = {};
+    key.debug.light = kEnvironmentName;
+    return key;
+  }
   key.lights = spec.lights;
   for (std::size_t i = 0; i < key.lights->size(); ++i) {
     Light& light = (*key.lights)[i];
@@ -46,9 +53,14 @@ FrameSpec truthKey(const Subject& subject) {
 /// the camera's samples see decides how the frame's maps are planned.
 FrameSpec shadowSpec(const Subject& subject, int light) {
   FrameSpec spec = subject.frame.spec;
-  for (Light& each : *spec.lights) each.shadow->strength = 1;
   spec.views = {View::shadow};
-  spec.debug = {light, 0, true};
+  if (light == kEnvironmentLight) {
+    spec.lights->clear();
+    spec.debug = {kEnvironmentName};
+  } else {
+    for (Light& each : *spec.lights) each.shadow->strength = 1;
+    spec.debug = {light, 0, true};
+  }
   spec.output.format = ImageFormat::exr;
   return spec;
 }
@@ -61,6 +73,7 @@ std::int64_t measuredBytes(const FrameSpec& spec, std::size_t lights) {
 
 /// The frame's own figures, and over all its lights so far how far edges are expected to be off.
 void addPrediction(const FrameReport& report, int light, std::optional<PredictedError>& predicted) {
+  if (light == kEnvironmentLight) return;
   const auto& ofLight = report.lights[static_cast<std::size_t>(light)].predictedError;
   const auto sum = predicted;
   predicted = report.predictedError;
@@ -89,7 +102,11 @@ Result<Subject> subjectOf(const ScenePtr& scene, const Variant& variant, std::si
   auto settled = settleFrame(scene, variant.spec, &device);
   if (!settled) return settled.problems();
   Subject subject{index, std::move(settled->frame), {}};
-  subject.lights = measuredLights(subject.frame);
+  if (showsEnvironment(variant.spec.debug)) {
+    subject.lights = {kEnvironmentLight};
+  } else {
+    subject.lights = measuredLights(subject.frame);
+  }
   if (subject.lights.empty()) {
     return Problem{ProblemCode::invalidValue, "/shadow",
                    "No light casts a shadow here, so there is nothing to measure.", "", ""};
@@ -130,14 +147,22 @@ Result<const TracedScene*> Truth::traced(const ResolvedFrame& frame) {
   return &*traced_;
 }
 
+Result<Reference> Truth::traced(const Subject& subject, const TraceInput& input, const Progress& progress) {
+  if (!measuresEnvironment(subject)) return traceReference(input, subject.lights, samples_, progress);
+  const int samples = std::max(samples_, kEnvironmentReferenceSamples);
+  report_.samples = std::max(report_.samples, samples);
+  const auto environment = environmentOf(environments_, *scene_, subject.frame.spec.environment);
+  if (!environment) return environment.problems();
+  return traceReference(input, skyLightOf(&*environment), samples, progress);
+}
+
 Result<Reference> Truth::trace(const Subject& subject, EvaluationSteps& steps) {
   if (!steps.goOn(subject.index)) return EvaluationSteps::stopProblem();
   const auto scene = traced(subject.frame);
   if (!scene) return scene.problems();
   const FrameSpec& spec = subject.frame.spec;
   const TraceInput input{**scene, subject.frame.view, spec.width, spec.height, *spec.lights, subject.frame.nodes};
-  auto reference =
-      traceReference(input, subject.lights, report_.samples, [&](double) { return steps.goOn(subject.index); });
+  auto reference = traced(subject, input, [&](double) { return steps.goOn(subject.index); });
   if (!reference) return steps.stopped() ? Result<Reference>(EvaluationSteps::stopProblem()) : reference;
   report_.milliseconds += reference->milliseconds;
   ++report_.frames;

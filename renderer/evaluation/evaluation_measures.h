@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/evaluation/evaluate.h"
+#include "renderer/frame/environment_cache.h"
 #include "renderer/reference/reference.h"
 #include "renderer/resolve/resolve_frame.h"
 
@@ -51,8 +52,13 @@ std::vector<int> measuredLights(const ResolvedFrame& frame);
 struct Subject {
   std::size_t index = 0; ///< of the variant
   ResolvedFrame frame;
-  std::vector<int> lights; ///< measuredLights
+  std::vector<int> lights; ///< measuredLights; kEnvironmentLight alone where debug.light names the environment
 };
+
+/// Whether the share of the environment is measured, and no light's shadow.
+inline bool measuresEnvironment(const Subject& subject) {
+  return subject.lights.front() == kEnvironmentLight;
+}
 
 /// The variant on its scene and on the device that draws it; a problem where nothing in it casts a shadow, or where its
 /// shadows take too much memory.
@@ -64,7 +70,9 @@ std::vector<std::vector<std::size_t>> shareReferences(const std::vector<Subject>
 /// Traces the truth about subjects of one scene.
 class Truth {
  public:
-  Truth(std::shared_ptr<const Scene> scene, int samples) : scene_(std::move(scene)) { report_.samples = samples; }
+  Truth(std::shared_ptr<const Scene> scene, int samples) : scene_(std::move(scene)), samples_(samples) {
+    report_.samples = samples;
+  }
 
   /// A problem of code `unavailable` where the steps' listener asked to stop.
   Result<Reference> trace(const Subject& subject, EvaluationSteps& steps);
@@ -74,7 +82,12 @@ class Truth {
  private:
   Result<const TracedScene*> traced(const ResolvedFrame& frame);
 
+  /// With the samples a pixel.
+  Result<Reference> traced(const Subject& subject, const TraceInput& input, const Progress& progress);
+
   std::shared_ptr<const Scene> scene_;
+  int samples_;
+  EnvironmentCache environments_;
   std::optional<TracedScene> traced_; ///< the last one
   int tracedIndex_ = 0;               ///< of its glTF scene
   ReferenceReport report_;

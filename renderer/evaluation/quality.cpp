@@ -89,7 +89,10 @@ Evaluation qualityEvaluation(const FrameSpec& spec, const std::vector<QualityTri
   evaluation.spec = spec;
   evaluation.spec.quality.reset();
   evaluation.repeats = kRepeats;
-  for (const QualityTrial& trial : trials) evaluation.variants.push_back({{}, trial.settings, withTrial(spec, trial)});
+  evaluation.spec.debug.light.reset(); // a target is about the shadows of lights
+  for (const QualityTrial& trial : trials) {
+    evaluation.variants.push_back({{}, trial.settings, withTrial(evaluation.spec, trial)});
+  }
   return evaluation;
 }
 

@@ -7,13 +7,17 @@
 namespace gnomon {
 
 Result<FrameEnvironment> environmentOf(EnvironmentCache& cache, SettledFrame& settled) {
-  const EnvironmentOptions& options = settled.frame.spec.environment;
+  return environmentOf(cache, *settled.loaded, settled.frame.spec.environment,
+                       std::exchange(settled.environment.split, std::nullopt));
+}
+
+Result<FrameEnvironment> environmentOf(EnvironmentCache& cache, const Scene& loaded, const EnvironmentOptions& options,
+                                       std::optional<SplitEnvironment> split) {
   FrameEnvironment environment;
   if (options.sky) {
     environment.environment = cache.get(*options.sky);
   } else if (options.file) {
-    auto made = cache.get(settled.loaded->environmentFiles.at(*options.file), options.extractSun,
-                          std::exchange(settled.environment.split, std::nullopt));
+    auto made = cache.get(loaded.environmentFiles.at(*options.file), options.extractSun, std::move(split));
     if (!made) return placedAt("/environment/file", made.problems());
     environment.environment = *std::move(made);
   } else {

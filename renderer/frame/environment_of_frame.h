@@ -11,4 +11,8 @@ namespace gnomon {
 /// /environment/file.
 Result<FrameEnvironment> environmentOf(EnvironmentCache& cache, SettledFrame& settled);
 
+/// The same of a scene and settled options; `split` where the file was read just now.
+Result<FrameEnvironment> environmentOf(EnvironmentCache& cache, const Scene& loaded, const EnvironmentOptions& options,
+                                       std::optional<SplitEnvironment> split = {});
+
 } // namespace gnomon

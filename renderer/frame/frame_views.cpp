@@ -20,7 +20,6 @@ namespace {
 using Rgb = std::array<std::uint8_t, 3>;
 
 constexpr int kReferenceSamples = 256; ///< rays a pixel towards a light that has a size, at least
-constexpr int kSkySamples = 1024;      ///< to the environment, at least
 constexpr Rgb kFalseShadow{255, 30, 30};
 constexpr Rgb kFalseLight{40, 110, 255};
 constexpr float kFarthest = 16; ///< pixels at the end of the heat map
@@ -124,7 +123,8 @@ Result<MeasuredShadow> measureShadow(const ResolvedFrame& frame, const TracedSce
   }
   const TraceInput input{traced, frame.view, spec.width, spec.height, *spec.lights, frame.nodes};
   auto truth = light == kEnvironmentLight
-                   ? traceReference(input, skyLightOf(&environment), std::max(kSkySamples, spec.environment.samples))
+                   ? traceReference(input, skyLightOf(&environment),
+                                    std::max(kEnvironmentReferenceSamples, spec.environment.samples))
                    : traceReference(input, lights, samples);
   if (!truth) return truth.problems();
   const auto errors = measureErrors(*truth, std::span(&shown, truth->lights.size()));

@@ -32,6 +32,9 @@ struct Reference {
 Result<Reference> traceReference(const TraceInput& input, std::span<const int> lights, int samples,
                                  const Progress& progress = {});
 
+/// Rays a pixel by which an environment's share is measured, at least.
+inline constexpr int kEnvironmentReferenceSamples = 1024;
+
 /// Traces a frame for its environment, as one light of index kEnvironmentLight: the share of its diffuse light that
 /// arrives, by luminance. Which of its parts hides it is not found.
 Result<Reference> traceReference(const TraceInput& input, const SkyLight& environment, int samples,

@@ -60,6 +60,49 @@ TEST(Evaluate, ASweepMeasuresEveryFilterAgainstOneReference) {
   EXPECT_TRUE(std::any_of(report->rows.begin(), report->rows.end(), [](const auto& row) { return *row.pareto; }));
 }
 
+TEST(Evaluate, SamplesOfAnEnvironmentAreMeasuredAgainstOneReferenceOfManyRays) {
+  const ScenePtr box = testing::generatedScene("box_on_plane");
+  constexpr const char* kAround = R"({"width": 160, "height": 90, "camera": {"node": "camera"}, "lights": [],
+      "environment": {"shadows": "rays"}, "debug": {"light": "environment"}})";
+  const Evaluation evaluation = evaluationOf(R"("variants": [{"environment": {"samples": 1}},
+      {"environment": {"samples": 64}}, {"debug": null}])",
+                                             kAround);
+  const auto report = evaluated(box, evaluation);
+  ASSERT_TRUE(report) << report.problems()[0].detail;
+  EXPECT_EQ(report->reference.samples, 1024);
+  EXPECT_EQ(report->reference.frames, 1);
+  ASSERT_TRUE(report->rows[0].metrics && report->rows[1].metrics);
+  EXPECT_GT(report->rows[0].metrics->rms, 1.2 * report->rows[1].metrics->rms);
+  EXPECT_GT(report->rows[1].metrics->rms, 0);
+  EXPECT_TRUE(*report->rows[1].pareto) << "by rms, whatever is misclassified";
+  EXPECT_TRUE(report->rows[2].problems) << "there is no light";
+  for (std::size_t i = 0; i < 2; ++i) {
+    FrameSpec spec = evaluation.variants[i].spec;
+    spec.views = {View::error};
+    const auto frame = testing::sharedRenderer().render(box, spec);
+    ASSERT_TRUE(frame) << frame.problems()[0].detail;
+    EXPECT_DOUBLE_EQ(report->rows[i].metrics->rms, frame->report.error->rms);
+  }
+}
+
+TEST(Evaluate, SkiesAreReferencesOfTheirOwnAndHaveNoShimmer) {
+  const ScenePtr box = testing::generatedScene("box_on_plane");
+  constexpr const char* kSky = R"({"width": 96, "height": 54, "camera": {"node": "camera"}, "lights": [],
+      "environment": {"shadows": "rays", "sky": {"sun": {"azimuthDegrees": 130, "elevationDegrees": 35}}},
+      "debug": {"light": "environment"}})";
+  const auto report = evaluated(box, evaluationOf(R"("variants": [{"environment": {"samples": 2}},
+      {"environment": {"sky": null}}, {"environment": {"rotationDegrees": 0, "samples": 8}}])",
+                                                  kSky));
+  ASSERT_TRUE(report) << report.problems()[0].detail;
+  EXPECT_EQ(report->reference.frames, 2);
+  for (const EvaluationRow& row : report->rows) EXPECT_TRUE(row.metrics && row.milliseconds) << row.name;
+  const auto moving =
+      evaluated(box, evaluationOf(R"("variants": [{}], "path": {"step": [0.01, 0, 0], "frames": 3})", kSky));
+  ASSERT_TRUE(moving);
+  ASSERT_TRUE(moving->rows[0].problems);
+  EXPECT_EQ(moving->rows[0].problems->front().pointer, "/debug/light");
+}
+
 /// A row's error is that of the frame that its variant gives: view `error` of that very spec.
 void expectErrorsOfFrames(const ScenePtr& scene, const std::vector<Variant>& variants, const EvaluationReport& report) {
   for (std::size_t i = 0; i < variants.size(); ++i) {
