@@ -231,6 +231,7 @@ export const kDataViews = [
   ['albedo', 'Albedo', 'Base color, without light'],
   ['position', 'Position', 'Place in the scene’s bounds, as a color'],
   ['motion', 'Motion', 'How far each point has moved since the last picture: the direction as a hue, white = not at all'],
+  ['sunHours', 'Sun hours', 'Hours of direct sun on the day of a sun by place and time: blue 0, red all daylight'],
   ['atlas', 'Atlas', 'The shadow atlas, depth as grey, each tile named light.tile'],
 ];
 
@@ -265,6 +266,7 @@ export const kStageColors = {
   shade: '#6aa5ff',
   predict: '#c9d25a',
   reference: '#7ccf6b',
+  sunHours: '#e0b83c',
   readback: '#8fa3bf',
   encode: '#d97c6c',
 };

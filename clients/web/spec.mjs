@@ -14,7 +14,19 @@ export function pictureSize(width, height, pixelRatio) {
 export function fullSpec({ spec, view, report }, size) {
   const sized = spec.width && spec.height ? spec : { ...size, ...spec };
   const motion = view === 'motion' && !spec.motionFrom ? { motionFrom: momentOf(report) } : {};
-  return { ...sized, ...motion, views: [view] };
+  const hours = view === 'sunHours' && !spec.sunHours ? dayOf(spec) : {};
+  return { ...sized, ...motion, ...hours, views: [view] };
+}
+
+// The day of the first sun by place and time, from midnight to midnight by its clock; without one the server says what is missing.
+function dayOf({ lights, environment }) {
+  const suns = [...(lights ?? []).map((light) => light.sun), environment?.sky?.sun];
+  const sun = suns.find((each) => each?.time);
+  const [, date, zone] = /^(\d{4}-\d\d-\d\d)T.*?(Z|[+-]\d\d:\d\d)$/i.exec(sun?.time ?? '') ?? [];
+  if (!date) return {};
+  const next = new Date(Date.parse(`${date}T00:00:00Z`) + 86_400_000).toISOString().slice(0, 10);
+  const { time, ...place } = sun;
+  return { sunHours: { ...place, begin: `${date}T00:00:00${zone}`, end: `${next}T00:00:00${zone}` } };
 }
 
 // What the last picture showed.

@@ -15,7 +15,7 @@ constexpr double kUsualWeighs = 0.2e6; ///< as much as so much seen work
 
 /// The part that a report's stage is of; nothing for what is no work on the frame.
 std::optional<FramePart> partOf(std::string_view stage) {
-  constexpr std::array<std::pair<std::string_view, FramePart>, 10> kParts{{{"upload", FramePart::fixed},
+  constexpr std::array<std::pair<std::string_view, FramePart>, 11> kParts{{{"upload", FramePart::fixed},
                                                                            {"plan", FramePart::fixed},
                                                                            {"bake", FramePart::bake},
                                                                            {"volume", FramePart::volume},
@@ -24,6 +24,7 @@ std::optional<FramePart> partOf(std::string_view stage) {
                                                                            {"shade", FramePart::shade},
                                                                            {"predict", FramePart::predict},
                                                                            {"reference", FramePart::reference},
+                                                                           {"sunHours", FramePart::reference},
                                                                            {"readback", FramePart::readback}}};
   if (stage == "encode") return FramePart::encode;
   const auto found = std::find_if(kParts.begin(), kParts.end(), [&](const auto& each) { return each.first == stage; });

@@ -6,6 +6,7 @@
 
 #include "protocol/spec/debug_light.h"
 #include "protocol/spec/frame_lights.h"
+#include "protocol/spec/sun_steps.h"
 #include "protocol/spec/traits.h"
 
 namespace gnomon {
@@ -183,6 +184,10 @@ FrameCost frameCost(const FrameSpec& spec, const SceneCounts& scene, DeviceKind 
                         : lights.empty()             ? 0
                                                      : 2 + referenceRays(spec, lights);
     cost[FramePart::reference] = pixels * rays * kReferenceRay;
+  }
+  if (spec.sunHours && shows([](const ViewTraits& view) { return view.view == View::sunHours; })) {
+    const double byDay = static_cast<double>(sunStepCount(*spec.sunHours)) / 2;
+    cost[FramePart::reference] += pixels * byDay * kReferenceRay;
   }
   if (spec.debug.predictEdges) cost[FramePart::predict] = pixels * kPredictedPixel;
   if (!spec.volumes.empty()) {

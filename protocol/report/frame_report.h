@@ -50,8 +50,8 @@ struct ErrorMetrics {
 };
 
 /// One stage's time. Names and order: queue load upload bake environment volume survey plan shadow shade predict
-/// reference readback encode. `predict` is there with debug.predictEdges, `reference` where a view compares a shadow
-/// with rays, `queue` on a server.
+/// reference sunHours readback encode. `predict` is there with debug.predictEdges, `reference` where a view compares a
+/// shadow with rays, `queue` on a server.
 struct StageTime {
   std::string stage{};
   double milliseconds = 0;
@@ -185,6 +185,15 @@ struct QualityReport {
   std::vector<QualityTrial> tried{};
 };
 
+/// What view sunHours shows. Hours are over the pixels that show a surface; 0 where none does.
+struct SunHoursReport {
+  int steps = 0;
+  double daylightHours = 0;
+  double meanHours = 0;
+  double minHours = 0;
+  double maxHours = 0;
+};
+
 /// What a frame's rendering decided and took.
 struct FrameReport {
   FrameSpec spec{};
@@ -195,6 +204,7 @@ struct FrameReport {
   std::optional<EnvironmentReport> environment{};
   std::optional<PredictedError> predictedError{};
   std::optional<ErrorMetrics> error{};
+  std::optional<SunHoursReport> sunHours{};
   std::optional<QualityReport> quality{};
   FrameCounts counts{};
   MemoryReport memory{};

@@ -166,6 +166,16 @@ inline constexpr auto kRows<FrameCounts> = replyRows(
     field<&FrameCounts::drawCalls>("Draw calls of the whole frame."));
 
 template <>
+inline constexpr auto kRows<SunHoursReport> = replyRows(
+    "SunHoursReport", "Hours of direct sun, over the pixels that show a surface.",
+    field<&SunHoursReport::steps>("Steps by day, each of which sent a ray from every pixel that faced the sun."),
+    field<&SunHoursReport::daylightHours>("Hours that these steps count: what a point in the open gets.",
+                                          {.unit = "hours"}),
+    field<&SunHoursReport::meanHours>("Mean of the pixels.", {.unit = "hours"}),
+    field<&SunHoursReport::minHours>("Fewest hours of a pixel.", {.unit = "hours"}),
+    field<&SunHoursReport::maxHours>("Most hours of a pixel.", {.unit = "hours"}));
+
+template <>
 inline constexpr auto kRows<FrameReport> = rows(
     "FrameReport", "Decisions, times and counts of a rendered frame.",
     field<&FrameReport::spec>(
@@ -178,13 +188,15 @@ inline constexpr auto kRows<FrameReport> = rows(
     field<&FrameReport::predictedError>("How large the texels of all tiles appear; absent if no tile was drawn."),
     field<&FrameReport::error>(
         "The shadow of `debug.light` compared with rays; only with view reference, error or edgeDistance."),
+    field<&FrameReport::sunHours>("What view `sunHours` found; only with that view."),
     field<&FrameReport::quality>("How the target was met; only if the request names one."),
     field<&FrameReport::counts>("How much was drawn."), field<&FrameReport::memory>("Memory on the device."),
     field<&FrameReport::passes>("Times and counts of each pass, in the order of drawing."),
     field<&FrameReport::stages>(
         "Time of each stage: queue, load, upload, bake, environment (with `environment.file` or `sky`), volume "
         "(with `volumes`), survey, plan, shadow, shade, predict "
-        "(with `debug.predictEdges`), reference (if a view asks for rays), readback, encode.",
+        "(with `debug.predictEdges`), reference (if a view asks for rays), sunHours (with that view), readback, "
+        "encode.",
         {.unit = "milliseconds"}),
     field<&FrameReport::warnings>("What differs from the file or the request, and what the picture is likely to lack: "
                                   "each a sentence, with what to set."));

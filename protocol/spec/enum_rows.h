@@ -136,6 +136,8 @@ inline constexpr std::array kSpellings<View>{
     spelling<View::motion>(
         "pixels that what is seen has moved in the picture since `motionFrom`: x to the right, y down, infinity where "
         "nothing is or was not before the camera then; or the direction as a hue, the stronger the farther"),
+    spelling<View::sunHours>("hours of direct sun in the time of `sunHours`: a heat map (0 to all hours of daylight) "
+                             "with a scale, or numbers; black, or -1, where no surface is"),
 };
 
 template <>

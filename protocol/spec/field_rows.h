@@ -132,6 +132,8 @@ inline constexpr auto kRows<FrameSpec> = rows(
                              "pass over the picture; `reference`, `error` and `edgeDistance` also trace rays.",
                              {.minCount = 1, .maxCount = kSpellings<View>.size(), .distinct = true}),
     field<&FrameSpec::motionFrom>("An earlier moment that the view `motion` compares with; required by that view."),
+    field<&FrameSpec::sunHours>("Place and time whose hours of direct sun the view `sunHours` shows; required by that "
+                                "view. The frame's lights do not matter to it."),
     field<&FrameSpec::debug>("What the debug views show."),
     field<&FrameSpec::quality>("A target for the shadows instead of settings: technique, filter, cascades and sizes "
                                "are then chosen to meet it."),

@@ -83,6 +83,7 @@ struct FrameSpec {
   Antialiasing antialiasing = Antialiasing::msaa4x;
   std::vector<View> views{View::color};
   std::optional<MotionFrom> motionFrom;
+  std::optional<SunHours> sunHours{};
   Debug debug;
   std::optional<Quality> quality;
   DeviceChoice device = DeviceChoice::auto_; ///< effective: what drew

@@ -28,7 +28,8 @@ enum class View {
   materials,
   albedo,
   position,
-  motion
+  motion,
+  sunHours
 };
 
 enum class ImageFormat { png, exr, npy, npz, tiff, jpeg, webp };

@@ -124,6 +124,19 @@ struct Sun {
   bool operator==(const Sun&) const = default;
 };
 
+/// What view sunHours adds up; `begin` and `end` as Sun::time.
+struct SunHours {
+  std::optional<double> latitudeDegrees{};
+  std::optional<double> longitudeDegrees{};
+  std::optional<double> northDegrees{};
+  std::string begin{};
+  std::string end{};
+  double stepMinutes = 10;
+  int stepDays = 1;
+
+  bool operator==(const SunHours&) const = default;
+};
+
 struct Light {
   LightType type = LightType::directional;
   std::optional<Vec3> direction{};

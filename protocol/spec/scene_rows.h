@@ -126,6 +126,29 @@ inline constexpr auto kRows<Sun> = rows(
                               {.unit = "degrees", .range = kAzimuthRange}));
 
 template <>
+inline constexpr auto kRows<SunHours> = rows(
+    "SunHours",
+    "What the view `sunHours` adds up: each step counts where the sun shines in its middle, from its centre. Of two "
+    "days that are 24 hours apart the second begins at the time of day of `begin`.",
+    field<&SunHours::latitudeDegrees>("Latitude of the place, north of the equator positive; required.",
+                                      {.unit = "degrees", .range = {-90, 90}}),
+    field<&SunHours::longitudeDegrees>("Longitude of the place, east of Greenwich positive; required.",
+                                       {.unit = "degrees", .range = {-180, 180}}),
+    field<&SunHours::northDegrees>(
+        "Where true north lies in the scene, clockwise from -Z as seen from above; absent = 0.",
+        {.unit = "degrees", .range = kAzimuthRange}),
+    field<&SunHours::begin>("Date and time with a zone at which the hours begin, as a sun's `time`; required.",
+                            {.maxCount = 64, .isTime = true}),
+    field<&SunHours::end>("Date and time with a zone at which they end, later than `begin`; required. At most 10000 "
+                          "steps lie between them, day and night.",
+                          {.maxCount = 64, .isTime = true}),
+    field<&SunHours::stepMinutes>("Length of a step. Rays of a frame grow with the number of steps by day.",
+                                  {.unit = "minutes", .range = {0.1, 1440}}),
+    field<&SunHours::stepDays>("Each day that is looked at stands for so many, itself and the ones after it: 7 looks "
+                               "at one day of each week. More than 1 needs whole days from `begin` to `end`.",
+                               {.unit = "days", .range = {1, 366}}));
+
+template <>
 inline constexpr auto kRows<Light> =
     rows("Light", "A light; a directional one needs `direction` or `sun`.",
          field<&Light::type>("Where the light comes from."),

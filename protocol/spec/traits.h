@@ -70,6 +70,7 @@ inline constexpr std::array kViewTraits{
     ViewTraits{View::albedo,            ViewSource::data,     true,    false,   false, false, false,   true,  false, channels::kRgb,  channels::kRgb},
     ViewTraits{View::position,          ViewSource::geometry, false,   false,   false, false, false,   false, true,  channels::kRgb,  channels::kXyz},
     ViewTraits{View::motion,            ViewSource::geometry, false,   false,   false, false, false,   false, true,  channels::kRgb,  channels::kXy},
+    ViewTraits{View::sunHours,          ViewSource::geometry, false,   false,   false, false, false,   false, true,  channels::kRgb,  channels::kValue},
 };
 // clang-format on
 static_assert(rowsAreComplete(kViewTraits, &ViewTraits::view));

@@ -6,6 +6,7 @@
 #include "protocol/fields/field_checks.h"
 #include "protocol/spec/debug_light.h"
 #include "protocol/spec/limits.h"
+#include "protocol/spec/sun_steps.h"
 
 namespace gnomon {
 namespace {
@@ -162,6 +163,7 @@ std::vector<BrokenRule> brokenRules(const FrameSpec& spec) {
   appendNodeRules(spec.nodes, "/nodes", broken);
   appendEnvironmentRules(spec.environment, broken);
   appendMotionRules(spec, broken);
+  appendSunHoursRules(spec, broken);
   for (std::size_t i = 0; i < spec.volumes.size(); ++i) {
     appendVolumeRules(spec.volumes[i], "/volumes/" + std::to_string(i), broken);
   }

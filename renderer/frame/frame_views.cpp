@@ -170,6 +170,10 @@ bool FrameViews::needReference() const {
   return std::any_of(spec_.views.begin(), spec_.views.end(), comparesWithRays);
 }
 
+bool FrameViews::needSunHours() const {
+  return std::find(spec_.views.begin(), spec_.views.end(), View::sunHours) != spec_.views.end();
+}
+
 bool FrameViews::needGeometry() const {
   return needCasters() || std::any_of(spec_.views.begin(), spec_.views.end(), showsTriangles);
 }
@@ -206,13 +210,15 @@ Image FrameViews::errorImage(FrameDrawing& drawing, View view, const MeasuredSha
 }
 
 std::vector<ViewImage> FrameViews::images(FrameDrawing& drawing, const MeasuredShadow* measured,
-                                          const ShownGeometry* geometry, const std::vector<int>& casters) const {
+                                          const ShownGeometry* geometry, const std::vector<int>& casters,
+                                          const ShownSunHours* sunHours) const {
   std::vector<ViewImage> images;
   for (const View view : spec_.views) {
-    images.push_back({view, comparesWithRays(view) ? errorImage(drawing, view, *measured)
-                            : showsTriangles(view) ? geometryView(*geometry, view, madePixels(view))
-                            : isTraced(view)       ? casterView(*geometry, casters, madePixels(view))
-                                                   : Image{}});
+    images.push_back({view, comparesWithRays(view)   ? errorImage(drawing, view, *measured)
+                            : view == View::sunHours ? sunHoursView(*geometry, *sunHours, madePixels(view))
+                            : showsTriangles(view)   ? geometryView(*geometry, view, madePixels(view))
+                            : isTraced(view)         ? casterView(*geometry, casters, madePixels(view))
+                                                     : Image{}});
   }
   // After the errors, which are painted over one of them.
   for (std::size_t i = 0; i < images.size(); ++i) {

@@ -9,6 +9,7 @@
 #include "renderer/device/device.h"
 #include "renderer/frame/frame.h"
 #include "renderer/frame/geometry_views.h"
+#include "renderer/frame/sun_hours_view.h"
 #include "renderer/image/image.h"
 #include "renderer/reference/reference.h"
 #include "renderer/resolve/resolve_frame.h"
@@ -39,6 +40,8 @@ class FrameViews {
   const std::vector<ViewRequest>& requests() const { return requests_; }
   /// Some view compares a shadow with rays.
   bool needReference() const;
+  /// Some view adds up hours of sun.
+  bool needSunHours() const;
   /// Some view shows the triangles that are seen.
   bool needGeometry() const;
   /// Some view shows the caster of debug.light's shadow, found by rays.
@@ -48,9 +51,10 @@ class FrameViews {
   /// debug.predictEdges.
   std::vector<float> fullShadow(FrameDrawing& drawing) const;
   /// The pictures of the spec's views, in their order. `measured`: null where no view compares a shadow with rays;
-  /// `geometry`: null where none shows triangles; `casters`: casterNodes, of no meaning unless needCasters.
+  /// `geometry`: null where none shows triangles; `casters`: casterNodes, of no meaning unless needCasters;
+  /// `sunHours`: null unless needSunHours.
   std::vector<ViewImage> images(FrameDrawing& drawing, const MeasuredShadow* measured, const ShownGeometry* geometry,
-                                const std::vector<int>& casters) const;
+                                const std::vector<int>& casters, const ShownSunHours* sunHours) const;
 
  private:
   bool isTraced(View view) const; ///< view casterIds where rays make it

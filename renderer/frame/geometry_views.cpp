@@ -200,11 +200,15 @@ Image geometryView(const ShownGeometry& shown, View view, PixelType pixels) {
   return image;
 }
 
-std::vector<int> casterNodes(const ShownGeometry& shown, const TraceInput& rays, int light) {
+std::vector<SurfacePoint> shownPoints(const ShownGeometry& shown, const TraceInput& rays) {
   std::vector<glm::vec2> places;
   places.reserve(shown.triangles.size());
   for (std::size_t i = 0; i < shown.triangles.size(); ++i) places.emplace_back(centreOf(shown, i));
-  const std::vector<std::uint32_t> casters = casterInstances(rays, light, pointsOn(rays, places, shown.triangles));
+  return pointsOn(rays, places, shown.triangles);
+}
+
+std::vector<int> casterNodes(const ShownGeometry& shown, const TraceInput& rays, int light) {
+  const std::vector<std::uint32_t> casters = casterInstances(rays, light, shownPoints(shown, rays));
   std::vector<int> nodes(casters.size());
   std::transform(casters.begin(), casters.end(), nodes.begin(), [&](std::uint32_t instance) {
     return instance == kNoSurface ? -1 : shown.view.instances[instance].node;

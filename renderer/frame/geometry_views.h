@@ -44,6 +44,9 @@ inline glm::dvec3 pointOf(const std::array<glm::dvec3, 3>& corners, const glm::d
   return corners[0] * weights.x + corners[1] * weights.y + corners[2] * weights.z;
 }
 
+/// What each pixel's centre shows, as rays meet it. `rays`: of the frame that `shown` is of.
+std::vector<SurfacePoint> shownPoints(const ShownGeometry& shown, const TraceInput& rays);
+
 /// View casterIds of a light whose shadow no map decides, by rays from what each pixel's centre shows: nodes, one a
 /// pixel; -1 where none casts a shadow: see casterInstances. `rays`: of the frame that `shown` is of.
 std::vector<int> casterNodes(const ShownGeometry& shown, const TraceInput& rays, int light);

@@ -123,7 +123,17 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
     casters = casterNodes(*geometry, input, subject->light);
   }
 
-  auto images = views.images(drawing, measured ? &*measured : nullptr, geometry ? &*geometry : nullptr, casters);
+  std::optional<ShownSunHours> sunHours;
+  if (views.needSunHours()) {
+    const auto rays = tracedScene();
+    if (!rays) return rays.problems();
+    const TraceInput input{**rays, resolved.view, effective.width, effective.height, *effective.lights, resolved.nodes};
+    sunHours = sunHoursOf(*geometry, input, *effective.sunHours);
+    drawing.endStage("sunHours");
+  }
+
+  auto images = views.images(drawing, measured ? &*measured : nullptr, geometry ? &*geometry : nullptr, casters,
+                             sunHours ? &*sunHours : nullptr);
   drawing.endStage("readback");
   auto facts = drawing.finish();
   if (!facts) return facts.problems();
@@ -133,6 +143,7 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   const auto warn = [&](std::vector<std::string> more) {
     std::move(more.begin(), more.end(), std::back_inserter(report.warnings));
   };
+  if (sunHours) report.sunHours = sunHours->report;
   report.environment = settled->environment.report;
   report.warnings.insert(report.warnings.begin(), loaded->summary.warnings.begin(), loaded->summary.warnings.end());
   warn(damageOf(scene->images));

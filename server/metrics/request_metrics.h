@@ -25,9 +25,9 @@ inline constexpr std::array<std::string_view, 23> kStatuses{"200", "201", "204",
                                                             "429", "431", "499", "500", "503", "504", "507"};
 
 /// Those of frame_report.h.
-inline constexpr std::array<std::string_view, 14> kStages{"queue",   "load",      "upload",   "bake",   "environment",
-                                                          "volume",  "survey",    "plan",     "shadow", "shade",
-                                                          "predict", "reference", "readback", "encode"};
+inline constexpr std::array<std::string_view, 15> kStages{"queue",   "load",      "upload",   "bake",     "environment",
+                                                          "volume",  "survey",    "plan",     "shadow",   "shade",
+                                                          "predict", "reference", "sunHours", "readback", "encode"};
 
 /// `value` where it is one of `known`, else "other".
 template <std::size_t N>

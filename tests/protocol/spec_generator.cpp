@@ -157,6 +157,14 @@ void mend(NodeOptions& node) {
   if (node.rotation) (*node.rotation)[3] = 1;
 }
 
+void mend(SunHours& hours) {
+  hours.latitudeDegrees = hours.latitudeDegrees.value_or(48.1);
+  hours.longitudeDegrees = hours.longitudeDegrees.value_or(11.6);
+  hours.begin = "2026-06-21T00:00+02:00";
+  hours.end = "2026-06-22T00:00+02:00";
+  hours.stepMinutes = std::max(hours.stepMinutes, 1.0);
+}
+
 void mend(AnimationMoment& moment) {
   keepOnly(pick(0, 2), moment.index, moment.name);
   if (!moment.index && !moment.name) moment.timeSeconds = 0;
@@ -268,6 +276,8 @@ rc::Gen<FrameSpec> anySpec() {
     if (spec.animation) mend(*spec.animation);
     if (spec.motionFrom) mend(*spec.motionFrom);
     std::erase_if(spec.views, [&](View view) { return view == View::motion && !spec.motionFrom; });
+    if (spec.sunHours) mend(*spec.sunHours);
+    std::erase_if(spec.views, [&](View view) { return view == View::sunHours && !spec.sunHours; });
     if (spec.views.empty()) spec.views = {View::color};
     for (VolumeOptions& volume : spec.volumes) mend(volume);
     keepOnly(pick(0, 1), spec.environment.file, spec.environment.sky);
