@@ -33,6 +33,19 @@ def load(setup):
             bpy.data.objects.remove(thing)
 
 
+def make_lambert(albedo):
+    """All surfaces matt, in place of their own materials."""
+    matt = bpy.data.materials.new("lambert")
+    matt.use_nodes = True
+    nodes = matt.node_tree.nodes
+    diffuse = nodes.new("ShaderNodeBsdfDiffuse")
+    diffuse.inputs["Color"].default_value = (albedo, albedo, albedo, 1)
+    matt.node_tree.links.new(diffuse.outputs["BSDF"], nodes["Material Output"].inputs["Surface"])
+    for thing in bpy.context.scene.objects:
+        for slot in thing.material_slots:
+            slot.material = matt
+
+
 def light_by(setup):
     """Blender has the middle of the picture towards its +X and goes on towards its -Y, which is glTF's +Z."""
     world = bpy.data.worlds.new("environment")
@@ -74,6 +87,7 @@ def set_engine(setup, file):
     scene.render.filepath = file
     cycles = scene.cycles
     cycles.samples = setup["samples"]
+    cycles.seed = setup.get("seed", 0)
     cycles.use_adaptive_sampling = cycles.use_denoising = False
     cycles.sample_clamp_indirect = cycles.sample_clamp_direct = 0
     cycles.blur_glossy = 0
@@ -85,6 +99,8 @@ def set_engine(setup, file):
 def main(path, file):
     setup = json.loads(Path(path).read_text())
     load(setup)
+    if "lambert" in setup:
+        make_lambert(setup["lambert"])
     light_by(setup)
     add_camera(setup)
     set_engine(setup, file + ".exr")

@@ -11,24 +11,31 @@ import { drawByGnomon } from './gnomon.mjs';
 import { saveArray } from './npy.mjs';
 
 const [build, shared, executable, work, ...chosen] = process.argv.slice(2);
-const kPages = { 'three.js': 'threejs', 'Babylon.js': 'babylon', 'Khronos viewer': 'khronos' };
+const kPages = { 'three.js': 'threejs', 'Babylon.js': 'babylon' };
 const kHtml = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><canvas></canvas>';
 const kLibraries = '/libraries/';
 
 const nameOf = ({ name, environment, rotationDegrees = 0 }) => (
   [name, ...(environment ? [environment] : []), ...(rotationDegrees ? [rotationDegrees] : [])].join(' '));
 
-// The files of a case: of this folder's own scene, of the build, or of the folder of gathered models.
+// The models that a folder's list names, where it is here.
+function modelsOf(folder) {
+  const list = path.join(folder, 'manifest.json');
+  if (!fs.existsSync(list)) return [];
+  return JSON.parse(fs.readFileSync(list)).models.map(({ id, path: place }) => ({ id, file: path.join(folder, place) }));
+}
+
+// The files of a case: of this folder's own scene, of the build, or of the folders of gathered models.
 function filesOf({ name, environment }) {
   const gathered = path.join(shared, 'khronos');
   const own = { spheres: path.join(work, 'spheres.glb'), demo: path.join(build, 'share/gnomon/demo.glb') };
-  const list = path.join(gathered, 'manifest.json');
-  const model = fs.existsSync(list) && JSON.parse(fs.readFileSync(list)).models.find(({ id }) => id === name);
+  const models = [gathered, path.join(shared, 'assets')].flatMap((folder) => modelsOf(folder));
+  const model = models.find(({ id }) => id === name);
   const environments = path.join(gathered, 'environments');
   const found = environment && fs.existsSync(environments) &&
     fs.readdirSync(environments).find((file) => file.startsWith(environment));
   return {
-    modelFile: own[name] ?? (model && path.join(gathered, model.path)),
+    modelFile: own[name] ?? model?.file,
     environmentFile: environment ? found && path.join(environments, found) : path.join(work, 'spheres.hdr'),
   };
 }
@@ -88,7 +95,7 @@ await bundle({
 const browser = await launchChromium(executable);
 try {
   for (const setup of setupsOf(JSON.parse(fs.readFileSync(path.join(import.meta.dirname, 'cases.json'))))) {
-    const folder = path.join(work, 'drawn', setup.title);
+    const folder = path.join(work, 'drawn', setup.title.replaceAll('/', ' '));
     fs.mkdirSync(folder, { recursive: true });
     fs.writeFileSync(path.join(folder, 'setup.json'), JSON.stringify(setup));
     for (const device of ['cpu', 'gl']) {
