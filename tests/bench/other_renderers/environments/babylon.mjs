@@ -27,7 +27,7 @@ async function open(canvas, setup) {
   await ImportMeshAsync(setup.model, scene);
   for (const light of [...scene.lights]) light.dispose();
   const environment = new HDRCubeTexture(setup.environment, scene, kFaceSide, false, true, false, true);
-  environment.rotationY = Math.PI / 2 - radians(setup.rotationDegrees);
+  environment.rotationY = Math.PI / 2 + radians(setup.rotationDegrees);
   scene.environmentTexture = environment;
 
   const camera = new FreeCamera('camera', Vector3.FromArray(given.eye), scene);

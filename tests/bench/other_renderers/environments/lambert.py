@@ -28,7 +28,7 @@ CAMERA = {"eye": [4.2, 3.0, 6.0], "target": [0, 0.6, 0], "fovYDegrees": 30, "nea
 
 
 def write_scene(path, color):
-    sys.path.insert(0, os.environ.get("GNOMON_SOURCE", str(HERE.parents[3])) + "/server/demo")
+    sys.path.insert(0, str(HERE.parents[3] / "server/demo"))
     import glb as glb_writer
     import shapes
     glb = glb_writer.Glb()
