@@ -20,7 +20,10 @@ FrameSpec bakedParts(const FrameSpec& spec) {
   if (spec.environment.shadows == EnvironmentShadows::rays) {
     parts.environment.shadows = spec.environment.shadows;
     parts.environment.samples = spec.environment.samples;
-    if (!spec.environment.file && !spec.environment.sky) parts.ambient = spec.ambient;
+    if (!spec.environment.file && !spec.environment.sky) {
+      parts.ambient = spec.ambient;
+      parts.environment.studio = spec.environment.studio;
+    }
   }
   parts.scene = spec.scene;
   parts.materialVariant = spec.materialVariant;

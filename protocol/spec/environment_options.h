@@ -19,6 +19,7 @@ struct Sky {
 };
 
 enum class EnvironmentBackground { none, environment, blurred };
+enum class Studio { lamps, even };
 enum class EnvironmentShadows { none, rays };
 enum class SunExtraction { auto_, none, removed };
 
@@ -26,6 +27,7 @@ enum class SunExtraction { auto_, none, removed };
 struct EnvironmentOptions {
   std::optional<std::string> file{};
   std::optional<Sky> sky{};
+  Studio studio = Studio::even;
   double rotationDegrees = 0;
   std::optional<double> intensity{};
   EnvironmentBackground background = EnvironmentBackground::none;

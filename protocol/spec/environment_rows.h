@@ -16,6 +16,12 @@ inline constexpr std::array kSpellings<EnvironmentBackground>{
 };
 
 template <>
+inline constexpr std::array kSpellings<Studio>{
+    spelling<Studio::lamps>("a dim room with a lamp overhead and three around the scene"),
+    spelling<Studio::even>("the same all around, brighter above than at the sides and below"),
+};
+
+template <>
 inline constexpr std::array kSpellings<EnvironmentShadows>{
     spelling<EnvironmentShadows::none>("all of its light arrives everywhere, but for occlusion textures"),
     spelling<EnvironmentShadows::rays>("rays find what the scene hides of it"),
@@ -53,6 +59,8 @@ inline constexpr auto kRows<EnvironmentOptions> =
                                          "high, linear radiance by longitude and latitude.",
                                          {.minCount = 1, .maxCount = 255}),
         field<&EnvironmentOptions::sky>("A computed sky instead of a file."),
+        field<&EnvironmentOptions::studio>("The neutral studio that lights the scene where there is neither a file nor "
+                                           "a sky; `ambient` is its brightness and its color."),
         field<&EnvironmentOptions::rotationDegrees>(
             "Turns the environment about the vertical axis, clockwise as seen from above. At 0 the middle of the "
             "picture lies towards +X and its right half towards +Z.",

@@ -89,9 +89,9 @@ const std::vector<ReadTexture>& CpuFrame::missingTextures(int samples) {
 
 Result<SeenDepths> CpuFrame::survey() {
   if (const Status made = needHoles(); !made) return made.problems();
-  if (work_.environment != nullptr && work_.environment->environment) {
-    scene_.environment = work_.environment->environment->prefiltered.texels.data();
-    setEnvironment(*work_.environment, scene_.frame);
+  if (const FrameEnvironment* around = work_.environment) {
+    if (around->environment) scene_.environment = around->environment->prefiltered.texels.data();
+    setEnvironment(*around, scene_.frame);
   }
   passStart_ = Clock::now();
   const int samples = gnomon::samplesOf(work_.frame.spec.antialiasing);

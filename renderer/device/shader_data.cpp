@@ -183,6 +183,7 @@ shared::FrameData frameData(const ResolvedFrame& frame) {
   data.pixelStep = glm::vec2(2.0 / frame.spec.width, 2.0 / frame.spec.height);
   data.background = glm::vec4(toVector(background.color), background.alpha);
   data.ambient = glm::vec3(toVector(ambient) * (intensity * frame.spec.environment.intensity.value_or(1)));
+  data.environmentTurn = glm::vec2(1, 0);
   data.exposureScale = static_cast<float>(std::exp2(frame.spec.exposure));
   data.ahead = static_cast<float>(view.ahead);
   data.shownRoughness = shownRoughness(frame.spec.environment.background);
@@ -191,6 +192,7 @@ shared::FrameData frameData(const ResolvedFrame& frame) {
 
 void setEnvironment(const FrameEnvironment& environment, shared::FrameData& data) {
   data.environmentIntensity = static_cast<float>(environment.intensity);
+  data.studioLamps = environment.studioLamps ? 1 : 0;
   data.environmentTurn = glm::vec2(environment.mapFromWorld[0][0], environment.mapFromWorld[2][0]);
 }
 

@@ -11,14 +11,22 @@ namespace {
 
 using Kept = std::pair<std::weak_ptr<const Environment>, std::shared_ptr<const EnvironmentSampler>>;
 
-std::shared_ptr<const EnvironmentSampler> studioSampler() {
+std::shared_ptr<const EnvironmentSampler> makeStudioSampler(unsigned lamps) {
   constexpr int kAcross = 2;
-  static const auto studio = std::make_shared<const EnvironmentSampler>(
-      [](const glm::dvec3& direction) {
-        return glm::vec3(shared::radianceAround(static_cast<float>(direction.y), 0.0f));
+  return std::make_shared<const EnvironmentSampler>(
+      [lamps](const glm::dvec3& direction) {
+        return glm::vec3(shared::radianceOfStudio(glm::vec3(direction), glm::vec2(1, 0), lamps, 0.0f));
       },
       kAcross);
-  return studio;
+}
+
+std::shared_ptr<const EnvironmentSampler> studioSampler(bool lamps) {
+  if (lamps) {
+    static const auto withLamps = makeStudioSampler(1);
+    return withLamps;
+  }
+  static const auto even = makeStudioSampler(0);
+  return even;
 }
 
 std::shared_ptr<const EnvironmentSampler> samplerOf(const std::shared_ptr<const Environment>& of) {
@@ -45,7 +53,8 @@ std::shared_ptr<const EnvironmentSampler> samplerOf(const std::shared_ptr<const 
 } // namespace
 
 SkyLight skyLightOf(const FrameEnvironment* environment) {
-  if (environment == nullptr || !environment->environment) return {studioSampler()};
+  if (environment == nullptr) return {studioSampler(false)};
+  if (!environment->environment) return {studioSampler(environment->studioLamps), glm::mat3(environment->mapFromWorld)};
   return {samplerOf(environment->environment), glm::mat3(environment->mapFromWorld)};
 }
 

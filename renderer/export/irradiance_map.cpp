@@ -93,7 +93,9 @@ WorldTriangle worldTriangle(const Scene& scene, const Instance& instance, std::u
 glm::dvec3 openIrradiance(const ShadowedEnvironment& sky, const glm::dvec3& normal) {
   const FrameEnvironment& around = sky.environment;
   if (!around.environment) {
-    return std::numbers::pi * sky.ambient * double{shared::irradianceAround(static_cast<float>(normal.y))};
+    const float overPi = shared::irradianceOfStudio(glm::vec3(around.mapFromWorld * normal), glm::vec2(1, 0),
+                                                    around.studioLamps ? 1 : 0);
+    return std::numbers::pi * sky.ambient * double{overPi};
   }
   const glm::vec3 overPi = shared::environmentIrradiance(around.environment->prefiltered.texels.data(),
                                                          glm::vec3(around.mapFromWorld * normal));

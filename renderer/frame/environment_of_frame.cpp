@@ -14,6 +14,8 @@ Result<FrameEnvironment> environmentOf(EnvironmentCache& cache, SettledFrame& se
 Result<FrameEnvironment> environmentOf(EnvironmentCache& cache, const Scene& loaded, const EnvironmentOptions& options,
                                        std::optional<SplitEnvironment> split) {
   FrameEnvironment environment;
+  environment.studioLamps = options.studio == Studio::lamps;
+  environment.mapFromWorld = mapFromWorld(options.rotationDegrees);
   if (options.sky) {
     environment.environment = cache.get(*options.sky);
   } else if (options.file) {
@@ -23,7 +25,6 @@ Result<FrameEnvironment> environmentOf(EnvironmentCache& cache, const Scene& loa
   } else {
     return environment;
   }
-  environment.mapFromWorld = mapFromWorld(options.rotationDegrees);
   environment.intensity = intensityOf(options);
   return environment;
 }

@@ -156,9 +156,9 @@ std::vector<ArrivalAt> arrivalsOf(const ShiningLights& shining, const LightShare
 /// Radiance, over all directions.
 glm::dvec3 meanAround(const ResolvedFrame& frame, const FrameEnvironment& environment) {
   if (environment.environment) return environment.environment->prefiltered.mean * environment.intensity;
-  constexpr double kOfStudio = 0.598; // of shared::irradianceAround
+  const double mean = environment.studioLamps ? 0.580 : 0.598; // of shared::radianceOfStudio
   const double intensity = frame.spec.ambient.intensity * frame.spec.environment.intensity.value_or(1);
-  return toVector(frame.spec.ambient.color) * (intensity * kOfStudio);
+  return toVector(frame.spec.ambient.color) * (intensity * mean);
 }
 
 /// One a volume of the spec; null = it is hidden.

@@ -138,9 +138,9 @@ GlFrame::GlFrame(GlShared& shared, const FrameWork& work)
 }
 
 Result<SeenDepths> GlFrame::survey() {
-  if (work_.environment != nullptr && work_.environment->environment) {
-    inputs_.environment = &shared_.environments.get(work_.environment->environment);
-    setEnvironment(*work_.environment, data_);
+  if (const FrameEnvironment* around = work_.environment) {
+    if (around->environment) inputs_.environment = &shared_.environments.get(around->environment);
+    setEnvironment(*around, data_);
     frame_.update(0, gl::bytesOfValue(data_));
   }
   auto survey = surveyScene(inputs_, samplesOf(work_.frame.spec.antialiasing), work_.parts);

@@ -3,6 +3,7 @@
 #include "shared/surroundings.h"
 #include "shared/octahedral.h"
 #include "shared/brdf.h"
+#include "shared/reflected_around.h"
 #ifdef ENVIRONMENT
 #include "shared/environment_squares.h"
 #define EnvironmentTexels sampler2D
@@ -25,7 +26,7 @@ vec3 irradianceOfSurroundings(vec3 normal) {
   vec3 texel = environmentIrradiance(environmentTexels, inEnvironment(normal, frame.environmentTurn));
   return frame.environmentIntensity * texel;
 #else
-  return frame.ambient * irradianceAround(normal.y);
+  return frame.ambient * irradianceOfStudio(normal, frame.environmentTurn, frame.studioLamps);
 #endif
 }
 
@@ -35,6 +36,6 @@ vec3 radianceOfSurroundings(vec3 direction, float roughness) {
   vec3 texel = environmentRadiance(environmentTexels, inEnvironment(direction, frame.environmentTurn), roughness);
   return frame.environmentIntensity * texel;
 #else
-  return frame.ambient * radianceAround(direction.y, roughness);
+  return frame.ambient * radianceOfStudio(direction, frame.environmentTurn, frame.studioLamps, roughness);
 #endif
 }

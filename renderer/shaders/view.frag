@@ -47,7 +47,8 @@ vec3 reflectedSurroundings(Surface surface, SurfacePoint s, vec4 arriving) {
                                         surface.roughness, surface.face, arriving);
   return frame.environmentIntensity * reflected;
 #else
-  return frame.ambient * ambientReflected(s, arriving);
+  return frame.ambient * studioReflected(frame.environmentTurn, frame.studioLamps, s, surface.baseColor, surface.metallic,
+                                         surface.roughness, surface.face, arriving);
 #endif
 }
 

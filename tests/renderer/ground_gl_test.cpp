@@ -123,7 +123,7 @@ TEST(Ground, SurroundingsAndOtherLightsFillTheShadow) {
   const Frame around = drawn({{"lights", {sun({{"intensity", 3}})}},
                               {"ambient", {{"color", {1, 1, 1}}, {"intensity", 0.5}}},
                               {"shadow", {{"technique", "rayTraced"}}}});
-  const double open = 0.5 * (0.547 + 0.3034 + 0.1534); // of irradianceAround, over pi, on what faces up
+  const double open = 0.5 * (0.547 + 0.3034 + 0.1534); // of irradianceOfEvenStudio, over pi, on what faces up
   const double sunlit = slanted / std::acos(-1.0);
   EXPECT_NEAR(pixelAt(around, 2, 0).w, sunlit / (sunlit + open), 1e-4);
   EXPECT_EQ(pixelAt(around, -3, 0).w, 0);

@@ -63,14 +63,15 @@ HWY_INLINE Float3 environmentTexel(EnvironmentTexels texels, const Float2& place
 #define GNOMON_OUT(type) type&
 #define PUNCTUAL
 #define MANUAL_BIAS
-#include "renderer/shaders/shared/surroundings.h"
-// brdf.h calls what surroundings.h defines.
 #include "renderer/shaders/shared/brdf.h"
 #include "renderer/shaders/shared/light.h"
 #include "renderer/shaders/shared/moments.h"
 #include "renderer/shaders/shared/normal_map.h"
 #include "renderer/shaders/shared/octahedral.h"
-// environment.h calls what brdf.h and octahedral.h define.
+#include "renderer/shaders/shared/surroundings.h"
+// reflected_around.h calls what brdf.h and surroundings.h define.
+#include "renderer/shaders/shared/reflected_around.h"
+// environment.h calls what octahedral.h and the two above define.
 #include "renderer/shaders/shared/environment.h"
 #include "renderer/shaders/shared/picture.h"
 #include "renderer/shaders/shared/shadow_bias.h"

@@ -37,7 +37,11 @@ inline HWY_NOINLINE Float3 reflectedEnvironment(const FrameScene& scene, const S
 /// What surfaces show of the surroundings. `arriving`: what the scene leaves of their light.
 HWY_INLINE Float3 reflectedSurroundings(const FrameScene& scene, const Surface& surface, const SurfacePoint& point,
                                         const Float4& arriving) {
-  if (scene.environment == nullptr) return Float3(scene.frame.ambient) * ambientReflected(point, arriving);
+  if (scene.environment == nullptr) {
+    return Float3(scene.frame.ambient) * studioReflected(Float2(scene.frame.environmentTurn), scene.frame.studioLamps,
+                                                         point, surface.baseColor, surface.metallic, surface.roughness,
+                                                         surface.receiver.normal, arriving);
+  }
   return reflectedEnvironment(scene, surface, point, arriving);
 }
 

@@ -21,13 +21,19 @@ inline HWY_NOINLINE Float3 radianceOfEnvironment(const FrameScene& scene, const 
 
 /// Their radiance from world directions. `roughness`: perceptual, of the surface that shows it.
 HWY_INLINE Float3 radianceOfSurroundings(const FrameScene& scene, const Float3& direction, const Float& roughness) {
-  if (scene.environment == nullptr) return Float3(scene.frame.ambient) * radianceAround(direction.y, roughness);
+  if (scene.environment == nullptr) {
+    return Float3(scene.frame.ambient) *
+           radianceOfStudio(direction, Float2(scene.frame.environmentTurn), scene.frame.studioLamps, roughness);
+  }
   return radianceOfEnvironment(scene, direction, roughness);
 }
 
 /// Their irradiance over pi on what faces a world direction.
 HWY_INLINE Float3 irradianceOfSurroundings(const FrameScene& scene, const Float3& normal) {
-  if (scene.environment == nullptr) return Float3(scene.frame.ambient) * irradianceAround(normal.y);
+  if (scene.environment == nullptr) {
+    return Float3(scene.frame.ambient) *
+           irradianceOfStudio(normal, Float2(scene.frame.environmentTurn), scene.frame.studioLamps);
+  }
   const Float3 towards = inEnvironment(normal, Float2(scene.frame.environmentTurn));
   return environmentIrradiance(scene.environment, towards) * scene.frame.environmentIntensity;
 }

@@ -38,22 +38,3 @@ GNOMON_FUNCTION vec3 reflectedRadiance(SurfacePoint s, vec3 toLight) {
   vec3 reflected = ((1.0f - fresnel) * s.albedo * (1.0f / kPi) + fresnel * (distribution * masking)) * nl;
   return select(nl <= 0.0f, vec3(0.0f), reflected);
 }
-
-// What a surface reflects of light from all around: f0 times the first number plus the second, by the split-sum fit of
-// Karis, "Physically Based Shading on Mobile", 2014. `nv`: cosine of the eye's angle to the normal, 0..1.
-GNOMON_FUNCTION vec2 splitSum(Real roughness, Real nv) {
-  Real rx = roughness * -1.0f + 1.0f;
-  Real ry = roughness * -0.0275f + 0.0425f;
-  Real a004 = min(rx * rx, exp2(-9.28f * nv)) * rx + ry;
-  return vec2(-1.04f * a004 + (roughness * -0.572f + 1.04f), 1.04f * a004 + (roughness * 0.022f + -0.04f));
-}
-
-// What a surface shows of the studio: Lambert, and the split sum. `arriving`: what the scene leaves of the diffuse
-// light (xyz) and of the mirrored (w).
-GNOMON_FUNCTION vec3 ambientReflected(SurfacePoint s, vec4 arriving) {
-  Real roughness = sqrt(s.alpha);
-  vec2 split = splitSum(roughness, clamp(dot(s.normal, s.toEye), 0.0f, 1.0f));
-  vec3 mirrored = reflect(-s.toEye, s.normal);
-  vec3 diffuse = s.albedo * irradianceAround(s.normal.y) * vec3(arriving.x, arriving.y, arriving.z);
-  return diffuse + (s.f0 * split.x + split.y) * (radianceAround(mirrored.y, roughness) * arriving.w);
-}

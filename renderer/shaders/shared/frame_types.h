@@ -144,9 +144,10 @@ struct FrameData {
   float exposureScale;        // 2^exposure
   float ahead;                // metres to be added to a depth that is shown, as the eye is moved ahead
   float environmentIntensity; // radiance of the environment's texels is multiplied by it
-  vec2 environmentTurn;       // as inEnvironment of environment.h has it
+  vec2 environmentTurn;       // as inEnvironment of surroundings.h has it, of the studio too
   float shownRoughness;       // of the surroundings where there is no surface; less than 0 = `background` shows there
-  float padding1, padding2, padding3;
+  uint studioLamps;           // 0 = the studio is even all around
+  float padding1, padding2;
 };
 
 // Read as vertex attributes, one an instance: llvmpipe fetches those far faster than a storage buffer.

@@ -102,7 +102,7 @@ TEST_F(BakedEnvironmentTest, AGlbHasTheStudioOfAmbient) {
   spec.environment.intensity = 2;
   const auto file = bakeFile(bake(spec), BakeFile::glb, {});
   ASSERT_TRUE(file);
-  const double up = double{shared::irradianceAround(1.0f)} * std::numbers::pi * 0.6 * 2;
+  const double up = double{shared::irradianceOfEvenStudio(1.0f)} * std::numbers::pi * 0.6 * 2;
   const MapLight light = lightIn(*file);
   EXPECT_NEAR(light.most.r, up, 0.01 * up);
   EXPECT_NEAR(light.most.g, 0.5 * up, 0.02 * up);

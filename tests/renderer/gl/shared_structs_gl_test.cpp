@@ -41,7 +41,7 @@ const std::vector<Member> kFrame{
     MEMBER(FrameData, shownRoughness),
     MEMBER(FrameData, padding1),
     MEMBER(FrameData, padding2),
-    MEMBER(FrameData, padding3),
+    MEMBER(FrameData, studioLamps),
 };
 const std::vector<Member> kMaterial{
     MEMBER(MaterialData, baseColorFactor),   MEMBER(MaterialData, emissiveFactor),

@@ -25,7 +25,16 @@ struct Reflected {
 struct Ambient {
   template <class Columns>
   static vec3 of(const Columns& in) {
-    return ambientReflected(pointOf(in), vec4(1.0f, 0.5f, 0.25f, 0.75f));
+    return evenStudioReflected(pointOf(in), vec4(1.0f, 0.5f, 0.25f, 0.75f));
+  }
+};
+
+struct Lamps {
+  template <class Columns>
+  static vec3 of(const Columns& in) {
+    const vec3 color = in.three(0) * 0.5f + vec3(0.5f);
+    return studioReflected(vec2(Real(0.6f), Real(0.8f)), 1, pointOf(in), color, share(in.one(3)), share(in.one(4)),
+                           normalize(in.three(11)), vec4(share(in.one(14)), Real(0.5f), Real(1.0f), share(in.one(15))));
   }
 };
 

@@ -20,8 +20,9 @@ inline constexpr std::array sharedFunctionNames{"reflected",  "ambient",  "direc
                                                 "by tangent", "by steps", "environment", "neutral", "agx"};
 
 /// The cases in that order, as a list of what they are made of.
-#define GNOMON_SHARED_FUNCTION_CASES                                                                                   \
-  Reflected, Ambient, Arriving<GNOMON_DIRECTIONAL>, Arriving<GNOMON_SPOT>, Arriving<GNOMON_POINT>, Tone, Caught, Heat, \
-      Glossy, Octahedral, ByTangent, BySteps, Environment, Mapped<GNOMON_TONE_NEUTRAL>, Mapped<GNOMON_TONE_AGX>
+#define GNOMON_SHARED_FUNCTION_CASES                                                                            \
+  Reflected, Ambient, Lamps, Arriving<GNOMON_DIRECTIONAL>, Arriving<GNOMON_SPOT>, Arriving<GNOMON_POINT>, Tone, \
+      Caught, Heat, Glossy, Octahedral, ByTangent, BySteps, Environment, Mapped<GNOMON_TONE_NEUTRAL>,           \
+      Mapped<GNOMON_TONE_AGX>
 
 } // namespace gnomon::cpu

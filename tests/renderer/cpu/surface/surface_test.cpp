@@ -60,7 +60,7 @@ Truth truthOf(const FrameScene& scene, const CameraView& view, const MadeScene::
   if (material.unlit) truth.emission = truth.baseColor;
   if (material.transmission > 0) {
     const double passing = material.transmission * (1 - truth.metallic);
-    const float behind = shared::radianceAround(static_cast<float>(-toEye.y), material.roughnessFactor);
+    const float behind = shared::radianceOfEvenStudio(static_cast<float>(-toEye.y), material.roughnessFactor);
     truth.emission += truth.baseColor * passing * glm::dvec3(scene.frame.ambient) * static_cast<double>(behind);
     truth.baseColor *= 1 + (truth.metallic - 1) * passing;
   }
