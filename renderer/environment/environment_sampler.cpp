@@ -52,6 +52,16 @@ double accumulate(const std::array<double, kSide>& parts, std::array<float, kSid
   return whole;
 }
 
+std::array<std::uint8_t, kSide> guideOf(const std::array<float, kSide + 1>& sums) {
+  std::array<std::uint8_t, kSide> guide{};
+  int index = 0;
+  for (int i = 0; i < kSide; ++i) {
+    while (index + 1 < kSide && sums[static_cast<std::size_t>(index) + 1] <= static_cast<float>(i) / kSide) ++index;
+    guide[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(index);
+  }
+  return guide;
+}
+
 constexpr std::size_t kMostPlaces = 8; ///< along a side of a cell
 
 int placesAcross(const EnvironmentMap& map) {
@@ -109,6 +119,8 @@ EnvironmentSampler::EnvironmentSampler(const std::function<glm::vec3(const glm::
       cells_[row * kSide + column].w = static_cast<float>(part * kSide * kSide / 4); // of the grid's area, which is 4
     }
   });
+  guides_.push_back(guideOf(rows_));
+  for (const auto& sums : columns_) guides_.push_back(guideOf(sums));
   constexpr double kVaries = 1; // squared standard deviation, of the mean squared
   share_ = whole > 0 && square * angle / (whole * whole) - 1 > kVaries ? 0.5f : 0.0f;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
 #include <vector>
@@ -34,6 +35,20 @@ class EnvironmentSampler {
   /// Where a place of the unit square leads. Close places lead to close directions, but for the grid's borders.
   glm::vec3 direction(glm::vec2 place) const;
 
+  /// The same of many at once, one a lane.
+  static constexpr std::size_t kLanes = 16;
+  struct Directions {
+    alignas(64) float x[kLanes], y[kLanes], z[kLanes]; ///< of unit length, in the map's own directions
+  };
+  struct Light {
+    alignas(64) float red[kLanes], green[kLanes], blue[kLanes]; ///< radiance
+    float density[kLanes];                                      ///< as density
+  };
+  void lookUp(const Directions& directions, Light& light) const;
+  /// `across`, `up`: of the unit square. `asked`: -1, or 0 for lanes whose direction may be any.
+  void aim(const float (&across)[kLanes], const float (&up)[kLanes], const int (&asked)[kLanes],
+           Directions& directions) const;
+
   /// The share of rays that is worth sending by these places, the others going by the cosine: 0 where the radiance
   /// varies little over all directions.
   float share() const { return share_; }
@@ -43,9 +58,12 @@ class EnvironmentSampler {
 
   const glm::vec4& cellAt(const glm::vec3& direction) const;
 
-  std::vector<glm::vec4> cells_;                      ///< row by row: radiance; density where |x| + |y| + |z| = 1
-  std::array<float, kSide + 1> rows_{};               ///< the part of all places that lies in rows before each
-  std::vector<std::array<float, kSide + 1>> columns_; ///< of each row, the part that lies before each column
+  std::vector<glm::vec4> cells_;        ///< row by row: radiance; density where |x| + |y| + |z| = 1
+  std::array<float, kSide + 1> rows_{}; ///< the part of all places that lies in rows before each
+  static constexpr int kEnds = kSide + 1;
+  std::vector<std::array<float, kEnds>> columns_;       ///< of each row, the part that lies before each column
+  std::vector<std::array<std::uint8_t, kSide>> guides_; ///< of rows_, then of columns_: the last of its places that
+                                                        ///< is no more than each 1 / kSide, where a search begins
   float share_ = 0;
 };
 

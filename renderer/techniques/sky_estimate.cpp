@@ -12,14 +12,11 @@ namespace {
 
 constexpr std::size_t kSkyCount = SkyPlaces::kCount;
 constexpr float kSkyPi = std::numbers::pi_v<float>;
+constexpr float kWideLobe = 0.5f;           ///< roughness: rays by the cosine find all of a lobe as wide
 constexpr float kLeastOverPlane = 0x1p-11f; ///< over the triangle's plane: less is not worth a ray
 
 glm::vec3 vectorAt(const float (&from)[3][kSkyCount], std::size_t i) {
   return {from[0][i], from[1][i], from[2][i]};
-}
-
-void put(const glm::vec3& v, float (&to)[3][kSkyCount], std::size_t i) {
-  for (int axis = 0; axis < 3; ++axis) to[axis][i] = v[axis];
 }
 
 struct Squares {
@@ -83,64 +80,145 @@ GNOMON_FOR_EACH_INSTRUCTION_SET void aimByLobe(const SkyPlaces& places, const Sq
   }
 }
 
+/// Parts of the unit square: the left one, as wide as `share`, drawn out to all of it, and the rest.
+struct Divided {
+  alignas(64) float across[kSkyCount], up[kSkyCount]; ///< of the left part
+  int left[kSkyCount];                                ///< -1: in the left part; else 0
+  Squares rest;
+};
+
+GNOMON_FOR_EACH_INSTRUCTION_SET void divide(const Squares& squares, float share, Divided& divided) {
+  const float overLeft = 1 / share;
+  const float overRest = 1 / (1 - share);
+  for (std::size_t i = 0; i < kSkyCount; ++i) {
+    const float x = static_cast<float>(static_cast<std::int32_t>(squares.x[i] >> 8)) * 0x1p-24f;
+    const float y = static_cast<float>(static_cast<std::int32_t>(squares.y[i] >> 8)) * 0x1p-24f;
+    divided.left[i] = when(x < share);
+    divided.across[i] = x * overLeft;
+    divided.up[i] = y;
+    const float place = (x - share) * overRest;
+    const float within = place < 0 ? 0.0f : (place < 0.9999f ? place : 0.9999f);
+    divided.rest.x[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(within * 0x1p24f)) << 8;
+    divided.rest.y[i] = squares.y[i];
+  }
+}
+
+using SkyDirections = EnvironmentSampler::Directions;
+static_assert(EnvironmentSampler::kLanes == kSkyCount);
+
+/// From the map's directions to the world's, where `left` has one.
+GNOMON_FOR_EACH_INSTRUCTION_SET void takeTurned(const glm::mat3& mapFromWorld, const SkyDirections& from,
+                                                const int (&left)[kSkyCount], SkyWays& ways) {
+  const glm::mat3 turn = mapFromWorld;
+  for (std::size_t i = 0; i < kSkyCount; ++i) {
+    const glm::vec3 toward = glm::vec3(from.x[i], from.y[i], from.z[i]) * turn; // the inverse turn
+    ways.toward[0][i] = select(left[i], toward.x, ways.toward[0][i]);
+    ways.toward[1][i] = select(left[i], toward.y, ways.toward[1][i]);
+    ways.toward[2][i] = select(left[i], toward.z, ways.toward[2][i]);
+  }
+}
+
+GNOMON_FOR_EACH_INSTRUCTION_SET void turnToMap(const glm::mat3& mapFromWorld, const SkyWays& ways, SkyDirections& to) {
+  const glm::mat3 turn = mapFromWorld;
+  for (std::size_t i = 0; i < kSkyCount; ++i) {
+    const glm::vec3 there = turn * glm::vec3(ways.toward[0][i], ways.toward[1][i], ways.toward[2][i]);
+    to.x[i] = there.x;
+    to.y[i] = there.y;
+    to.z[i] = there.z;
+  }
+}
+
 /// Turns those ways that go by where light comes from: of the squares' left part. The rest is drawn out to all of it.
-void aimByLight(const SkyLight& sky, std::size_t count, Squares& squares, SkyWays& ways, const SkyPlaces& places) {
+void aimByLight(const SkyLight& sky, const Squares& squares, SkyWays& ways, const SkyPlaces& places) {
   const float share = sky.sampler->share();
   if (share == 0) return aimByCosine(places, squares, ways);
-  std::uint32_t byLight = 0;
-  Squares byCosine = squares;
-  for (std::size_t i = 0; i < count; ++i) {
-    const float x = static_cast<float>(squares.x[i]) * 0x1p-32f;
-    if (x < share) {
-      byLight |= 1u << i;
-    } else {
-      byCosine.x[i] = static_cast<std::uint32_t>(std::min(double{x - share} / double{1 - share}, 0.999999) * 0x1p32);
-    }
-  }
-  aimByCosine(places, byCosine, ways);
-  for (std::size_t i = 0; i < count; ++i) {
-    if ((byLight >> i & 1u) == 0) continue;
-    const glm::vec2 place(static_cast<float>(squares.x[i]) * 0x1p-32f / share,
-                          static_cast<float>(squares.y[i]) * 0x1p-32f);
-    put(sky.sampler->direction(place) * sky.mapFromWorld, ways.toward, i); // the inverse turn
-  }
+  Divided divided;
+  divide(squares, share, divided);
+  aimByCosine(places, divided.rest, ways);
+  SkyDirections directions;
+  sky.sampler->aim(divided.across, divided.up, divided.left, directions);
+  takeTurned(sky.mapFromWorld, directions, divided.left, ways);
 }
 
 /// What each way brings. Those that bring nothing are not asked for.
 struct Brought {
-  glm::vec3 diffuse[kSkyCount];
+  alignas(64) float diffuse[3][kSkyCount];
   float mirror[kSkyCount]; ///< in the lobe: its luminance
 };
 
 /// How many of the directions of aimByLobe lie there, per steradian, of 1 in all.
-float lobeDensity(const glm::vec3& normal, const glm::vec3& toEye, float roughness, const glm::vec3& toward) {
+[[gnu::always_inline]] inline float lobeDensity(const glm::vec3& normal, const glm::vec3& toEye, float roughness,
+                                                const glm::vec3& toward) {
   const glm::vec3 sum = toward + toEye;
-  const glm::vec3 half = sum / std::max(glm::length(sum), 1e-6f);
-  const float alpha = std::max(roughness * roughness, 1e-3f);
+  const float squared = glm::dot(sum, sum);
+  const glm::vec3 half = sum * (1 / std::sqrt(squared < 1e-12f ? 1e-12f : squared));
+  const float rough = roughness * roughness;
+  const float alpha = rough < 1e-3f ? 1e-3f : rough;
   const float cosine = glm::dot(normal, half);
   const float spread = cosine * cosine * (alpha * alpha - 1) + 1;
-  const float facets = alpha * alpha / (kSkyPi * spread * spread) * std::max(cosine, 0.0f);
-  return facets / (4 * std::max(glm::dot(toEye, half), 1e-4f));
+  const float facets = alpha * alpha / (kSkyPi * spread * spread) * (cosine < 0 ? 0.0f : cosine);
+  const float toHalf = glm::dot(toEye, half);
+  return facets / (4 * (toHalf < 1e-4f ? 1e-4f : toHalf));
 }
 
-/// Weighs ways that both kinds of rays may take. `perMirror`: diffuse rays for each that goes by the lobe.
+/// `share`: of the ways that go by light. `perMirror`: diffuse rays for each that goes by the lobe.
+GNOMON_FOR_EACH_INSTRUCTION_SET void weighAll(const SkyPlaces& places, const EnvironmentSampler::Light& light,
+                                              float share, float perMirror, SkyWays& ways, Brought& brought) {
+  Brought found; // what nothing else can refer to becomes vectors
+  alignas(64) int asked[kSkyCount];
+  for (std::size_t i = 0; i < kSkyCount; ++i) {
+    const glm::vec3 toward(ways.toward[0][i], ways.toward[1][i], ways.toward[2][i]);
+    const glm::vec3 normal(places.shading[0][i], places.shading[1][i], places.shading[2][i]);
+    const glm::vec3 plane(places.normal[0][i], places.normal[1][i], places.normal[2][i]);
+    const glm::vec3 eye(places.toEye[0][i], places.toEye[1][i], places.toEye[2][i]);
+    const float cosine = glm::dot(normal, toward);
+    const int leads = when(glm::dot(plane, toward) > kLeastOverPlane) & when(cosine > 0);
+    const float density = (1 - share) * cosine * (1 / kSkyPi) + share * light.density[i];
+    const float lobe = lobeDensity(normal, eye, places.roughness[i], toward);
+    const float over = cosine / density;
+    found.diffuse[0][i] = light.red[i] * over;
+    found.diffuse[1][i] = light.green[i] * over;
+    found.diffuse[2][i] = light.blue[i] * over;
+    const float luminance = 0.2126f * light.red[i] + 0.7152f * light.green[i] + 0.0722f * light.blue[i];
+    const float byLobe = select(when(places.roughness[i] < kWideLobe), lobe, 0.0f);
+    found.mirror[i] = luminance * lobe / (perMirror * density + byLobe);
+    asked[i] = places.receives[i] & leads & when(light.red[i] + light.green[i] + light.blue[i] > 0);
+  }
+  brought = found;
+  std::copy_n(asked, kSkyCount, ways.asked);
+}
+
+/// Weighs ways that both kinds of rays may take, of the first `count` places.
 void weigh(const SkyLight& sky, const SkyPlaces& places, std::size_t count, float perMirror, SkyWays& ways,
            Brought& brought) {
-  const float share = sky.sampler->share();
-  for (std::size_t i = 0; i < kSkyCount; ++i) ways.asked[i] = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const glm::vec3 toward = vectorAt(ways.toward, i);
-    const glm::vec3 normal = vectorAt(places.shading, i);
-    const float cosine = glm::dot(normal, toward);
-    const bool leaves = glm::dot(vectorAt(places.normal, i), toward) > kLeastOverPlane;
-    if (places.receives[i] == 0 || !leaves || !(cosine > 0)) continue;
-    const glm::vec3 there = sky.mapFromWorld * toward;
-    const float density = (1 - share) * cosine / kSkyPi + (share > 0 ? share * sky.sampler->density(there) : 0.0f);
-    const glm::vec3 light = sky.sampler->radiance(there);
-    const float lobe = lobeDensity(normal, vectorAt(places.toEye, i), places.roughness[i], toward);
-    brought.diffuse[i] = light * (cosine / density);
-    brought.mirror[i] = glm::dot(light, glm::vec3(0.2126f, 0.7152f, 0.0722f)) * lobe / (perMirror * density + lobe);
-    ways.asked[i] = light.x + light.y + light.z > 0 ? -1 : 0;
+  SkyDirections directions;
+  turnToMap(sky.mapFromWorld, ways, directions);
+  EnvironmentSampler::Light light;
+  sky.sampler->lookUp(directions, light);
+  weighAll(places, light, sky.sampler->share(), perMirror, ways, brought);
+  std::fill(ways.asked + count, std::end(ways.asked), 0);
+}
+
+/// The same sums as SkySums, of all places.
+struct Summed {
+  alignas(64) float open[3][kSkyCount], arriving[3][kSkyCount];
+  float openMirror[kSkyCount], arrivingMirror[kSkyCount];
+};
+
+GNOMON_FOR_EACH_INSTRUCTION_SET void addFound(const SkyWays& ways, const Brought& brought, const float* found,
+                                              bool diffuse, Summed& sums) {
+  const int isDiffuse = when(diffuse);
+  for (std::size_t i = 0; i < kSkyCount; ++i) {
+    const int asked = ways.asked[i];
+    const float through = found[i];
+    for (int c = 0; c < 3; ++c) {
+      const float part = select(asked & isDiffuse, brought.diffuse[c][i], 0.0f);
+      sums.open[c][i] += part;
+      sums.arriving[c][i] += part * through;
+    }
+    const float part = select(asked, brought.mirror[i], 0.0f);
+    sums.openMirror[i] += part;
+    sums.arrivingMirror[i] += part * through;
   }
 }
 
@@ -157,31 +235,30 @@ std::uint64_t addSky(const SkyLight& sky, SkyPacket& packet, const ShownSamples&
   std::uint64_t sent = 0;
   SkyWays ways;
   Brought brought;
-  const auto addMirror = [&](std::size_t i, float found) {
-    sums[i].openMirror += brought.mirror[i];
-    sums[i].arrivingMirror += brought.mirror[i] * found;
+  Summed all{};
+  const auto trace = [&](bool diffuse) {
+    weigh(sky, at, shown.count, perMirror, ways, brought);
+    for (std::size_t i = 0; i < kSkyCount; ++i) {
+      if (!diffuse) ways.asked[i] &= when(at.roughness[i] < kWideLobe);
+    }
+    addFound(ways, brought, packet.through(ways).data(), diffuse, all);
+    sent += askedOf(ways);
   };
   for (std::uint32_t ray = rays.first; ray < rays.last; ++ray) {
-    Squares squares = squaresOf(shown, places.diffuse, ray);
-    aimByLight(sky, shown.count, squares, ways, at);
-    weigh(sky, at, shown.count, perMirror, ways, brought);
-    const auto found = packet.through(ways);
-    for (std::size_t i = 0; i < shown.count; ++i) {
-      if (ways.asked[i] == 0) continue;
-      sums[i].open += brought.diffuse[i];
-      sums[i].arriving += brought.diffuse[i] * found[i];
-      addMirror(i, found[i]);
-    }
-    sent += askedOf(ways);
+    aimByLight(sky, squaresOf(shown, places.diffuse, ray), ways, at);
+    trace(true);
   }
-  for (std::uint32_t ray = mirrorRays(rays.first); ray < mirrorRays(rays.last); ++ray) {
+  const bool anyMirror =
+      std::any_of(at.roughness, at.roughness + shown.count, [](float roughness) { return roughness < kWideLobe; });
+  for (std::uint32_t ray = mirrorRays(rays.first); anyMirror && ray < mirrorRays(rays.last); ++ray) {
     aimByLobe(at, squaresOf(shown, places.mirrored, ray), ways);
-    weigh(sky, at, shown.count, perMirror, ways, brought);
-    const auto found = packet.through(ways);
-    for (std::size_t i = 0; i < shown.count; ++i) {
-      if (ways.asked[i] != 0) addMirror(i, found[i]);
-    }
-    sent += askedOf(ways);
+    trace(false);
+  }
+  for (std::size_t i = 0; i < shown.count; ++i) {
+    sums[i].open += vectorAt(all.open, i);
+    sums[i].arriving += vectorAt(all.arriving, i);
+    sums[i].openMirror += all.openMirror[i];
+    sums[i].arrivingMirror += all.arrivingMirror[i];
   }
   return sent;
 }

@@ -23,7 +23,7 @@ struct SkyRays {
   std::uint32_t first, last;
 };
 
-/// How many of so many rays look around the mirrored direction besides.
+/// How many rays look around the mirrored direction besides so many diffuse ones, where the lobe is narrow.
 inline std::uint32_t mirrorRays(std::uint32_t rays) {
   return (rays + 3) / 4;
 }
