@@ -74,8 +74,9 @@ inline constexpr auto kRows<EvaluationRow> = replyRows(
     field<&EvaluationRow::memoryBytes>("Memory that the frame takes on the device, its scene included.",
                                        {.unit = "bytes"}),
     field<&EvaluationRow::metrics>("Its error; absent if there is a problem."),
-    field<&EvaluationRow::pareto>(
-        "True = no other row is faster and misclassifies no more receivers. Absent in an event `row`."),
+    field<&EvaluationRow::pareto>("True = no other row is faster and misclassifies no more receivers; of an "
+                                  "environment's share, has no more rms. "
+                                  "Absent in an event `row`."),
     field<&EvaluationRow::problems>("Why it could not be measured; absent if it was."));
 
 template <>
@@ -84,7 +85,8 @@ inline constexpr auto kRows<ReferenceReport> =
               field<&ReferenceReport::milliseconds>("Time of tracing.", {.unit = "milliseconds"}),
               field<&ReferenceReport::buildMilliseconds>("Time of building the ray tracing structure, before tracing.",
                                                          {.unit = "milliseconds"}),
-              field<&ReferenceReport::samples>("Rays for each pixel towards lights that have a size."),
+              field<&ReferenceReport::samples>(
+                  "Rays for each pixel towards lights that have a size, and towards an environment."),
               field<&ReferenceReport::frames>("Number of traced references; variants that see the same share one."));
 
 template <>

@@ -204,6 +204,33 @@ TEST(EnvironmentFrames, TheStudioIsSeenAndScaledToo) {
   }
 }
 
+TEST(EnvironmentFrames, LampsOfTheStudioAreMirroredAndTurned) {
+  const ScenePtr scene = ballScene({0.9, 0.6, 0.3});
+  Json spec =
+      specOf({{"ambient", {{"intensity", 0.5}}}, {"lights", {{{"type", "directional"}, {"sun", Json::object()}}}}});
+  spec["environment"] = {{"studio", "lamps"}, {"rotationDegrees", 70}, {"background", "environment"}};
+  const std::vector<int> levels =
+      levelsBetween(drawn(DeviceChoice::cpu, scene, spec), drawn(DeviceChoice::gl, scene, spec));
+  EXPECT_LE(percentOver(levels, 1), 0.5);
+  EXPECT_LE(percentOver(levels, 4), 0.1);
+  spec.merge_patch(kFloats);
+  spec["lights"] = Json::array();
+  for (const DeviceChoice device : kDevices) {
+    const auto brightest = [&](const Json& environment) {
+      Json asked = spec;
+      asked["environment"] = environment;
+      float most = 0;
+      for (const float value : floatsOf(drawn(device, scene, asked))) most = std::max(most, value);
+      return most;
+    };
+    EXPECT_GT(brightest({{"studio", "lamps"}}), 1.3f * brightest({{"studio", "even"}})) << "a lamp in a mirror";
+    EXPECT_EQ(brightest(Json::object()), brightest({{"studio", "even"}}));
+    Json turned = spec;
+    turned["environment"]["rotationDegrees"] = 250;
+    EXPECT_NE(floatsOf(drawn(device, scene, spec)), floatsOf(drawn(device, scene, turned)));
+  }
+}
+
 TEST(EnvironmentFrames, CloudsTakeItsMeanLight) {
   testing::GlbBuilder builder = testing::plane();
   SceneBundle bundle = builder.bundle();

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Literal, Optional, Sequence, Union
 from .json_form import Spec
 from .scene_calls import SceneLike
 from .spec import (Json, Vector, Camera, Shadow, Light, Atlas, NodeOptions, VolumeOptions, AnimationMoment, Ambient,
-                   EnvironmentOptions, Ground, Background, MotionFrom, Debug, Quality, Output, CameraPath)
+                   EnvironmentOptions, Ground, Background, MotionFrom, SunHours, Debug, Quality, Output, CameraPath)
 
 if TYPE_CHECKING:
     from .session import Session
 
-Views = Sequence[Literal["color", "depth", "normal", "cascades", "shadow", "atlas", "tile", "texelGrid", "texelDensity", "blendWeight", "bias", "casterIds", "lightContribution", "reference", "error", "edgeDistance", "ids", "instances", "materials", "albedo", "position", "motion"]]
+Views = Sequence[Literal["color", "depth", "normal", "cascades", "shadow", "atlas", "tile", "texelGrid", "texelDensity", "blendWeight", "bias", "casterIds", "lightContribution", "reference", "error", "edgeDistance", "ids", "instances", "materials", "albedo", "position", "motion", "sunHours"]]
 
 
 def frame(
@@ -42,6 +42,7 @@ def frame(
     antialiasing: Optional[Literal["none", "msaa4x"]] = None,
     views: Optional[Views] = None,
     motionFrom: Optional[Union[MotionFrom, Json]] = None,
+    sunHours: Optional[Union[SunHours, Json]] = None,
     debug: Optional[Union[Debug, Json]] = None,
     quality: Optional[Union[Quality, Json]] = None,
     device: Optional[Literal["auto", "cpu", "gl"]] = None,
@@ -77,6 +78,7 @@ def render(
     antialiasing: Optional[Literal["none", "msaa4x"]] = None,
     views: Optional[Views] = None,
     motionFrom: Optional[Union[MotionFrom, Json]] = None,
+    sunHours: Optional[Union[SunHours, Json]] = None,
     debug: Optional[Union[Debug, Json]] = None,
     quality: Optional[Union[Quality, Json]] = None,
     device: Optional[Literal["auto", "cpu", "gl"]] = None,
@@ -110,6 +112,7 @@ def orbit(
     antialiasing: Optional[Literal["none", "msaa4x"]] = None,
     views: Optional[Views] = None,
     motionFrom: Optional[Union[MotionFrom, Json]] = None,
+    sunHours: Optional[Union[SunHours, Json]] = None,
     debug: Optional[Union[Debug, Json]] = None,
     quality: Optional[Union[Quality, Json]] = None,
     device: Optional[Literal["auto", "cpu", "gl"]] = None,
@@ -143,6 +146,7 @@ def picture(
     antialiasing: Optional[Literal["none", "msaa4x"]] = None,
     views: Optional[Views] = None,
     motionFrom: Optional[Union[MotionFrom, Json]] = None,
+    sunHours: Optional[Union[SunHours, Json]] = None,
     debug: Optional[Union[Debug, Json]] = None,
     quality: Optional[Union[Quality, Json]] = None,
     device: Optional[Literal["auto", "cpu", "gl"]] = None,
@@ -180,6 +184,7 @@ def evaluate(
     antialiasing: Optional[Literal["none", "msaa4x"]] = None,
     views: Optional[Views] = None,
     motionFrom: Optional[Union[MotionFrom, Json]] = None,
+    sunHours: Optional[Union[SunHours, Json]] = None,
     debug: Optional[Union[Debug, Json]] = None,
     quality: Optional[Union[Quality, Json]] = None,
     device: Optional[Literal["auto", "cpu", "gl"]] = None,
@@ -216,6 +221,7 @@ def sequence(
     antialiasing: Optional[Literal["none", "msaa4x"]] = None,
     views: Optional[Views] = None,
     motionFrom: Optional[Union[MotionFrom, Json]] = None,
+    sunHours: Optional[Union[SunHours, Json]] = None,
     debug: Optional[Union[Debug, Json]] = None,
     quality: Optional[Union[Quality, Json]] = None,
     device: Optional[Literal["auto", "cpu", "gl"]] = None,
@@ -255,6 +261,7 @@ def video(
     antialiasing: Optional[Literal["none", "msaa4x"]] = None,
     views: Optional[Views] = None,
     motionFrom: Optional[Union[MotionFrom, Json]] = None,
+    sunHours: Optional[Union[SunHours, Json]] = None,
     debug: Optional[Union[Debug, Json]] = None,
     quality: Optional[Union[Quality, Json]] = None,
     device: Optional[Literal["auto", "cpu", "gl"]] = None,

@@ -339,6 +339,28 @@ class ErrorMetrics(TypedDict, total=False):
     predicted: "PredictedError"
 
 
+class SunHoursReport(TypedDict, total=False):
+    """Hours of direct sun, over the pixels that show a surface.
+
+    steps:
+        Steps by day, each of which sent a ray from every pixel that faced the sun.
+    daylightHours:
+        Hours that these steps count: what a point in the open gets. Unit: hours.
+    meanHours:
+        Mean of the pixels. Unit: hours.
+    minHours:
+        Fewest hours of a pixel. Unit: hours.
+    maxHours:
+        Most hours of a pixel. Unit: hours.
+    """
+
+    steps: int
+    daylightHours: float
+    meanHours: float
+    minHours: float
+    maxHours: float
+
+
 class QualityTrial(TypedDict, total=False):
     """Settings that were measured for a target, and what they reached.
 
@@ -423,7 +445,7 @@ PassReport = TypedDict(
     "PassReport",
     {
         "pass": str,
-        "view": Literal["color", "depth", "normal", "cascades", "shadow", "atlas", "tile", "texelGrid", "texelDensity", "blendWeight", "bias", "casterIds", "lightContribution", "reference", "error", "edgeDistance", "ids", "instances", "materials", "albedo", "position", "motion"],
+        "view": Literal["color", "depth", "normal", "cascades", "shadow", "atlas", "tile", "texelGrid", "texelDensity", "blendWeight", "bias", "casterIds", "lightContribution", "reference", "error", "edgeDistance", "ids", "instances", "materials", "albedo", "position", "motion", "sunHours"],
         "cpuMilliseconds": float,
         "gpuMilliseconds": float,
         "drawCalls": int,
@@ -453,6 +475,8 @@ class FrameReport(TypedDict, total=False):
         How large the texels of all tiles appear; absent if no tile was drawn.
     error:
         The shadow of `debug.light` compared with rays; only with view reference, error or edgeDistance.
+    sunHours:
+        What view `sunHours` found; only with that view.
     quality:
         How the target was met; only if the request names one.
     counts:
@@ -464,7 +488,7 @@ class FrameReport(TypedDict, total=False):
     stages:
         Time of each stage: queue, load, upload, bake, environment (with `environment.file` or `sky`), volume (with
         `volumes`), survey, plan, shadow, shade, predict (with `debug.predictEdges`), reference (if a view asks for
-        rays), readback, encode. Unit: milliseconds.
+        rays), sunHours (with that view), readback, encode. Unit: milliseconds.
     warnings:
         What differs from the file or the request, and what the picture is likely to lack: each a sentence, with
         what to set.
@@ -478,6 +502,7 @@ class FrameReport(TypedDict, total=False):
     environment: "EnvironmentReport"
     predictedError: "PredictedError"
     error: "ErrorMetrics"
+    sunHours: "SunHoursReport"
     quality: "QualityReport"
     counts: "FrameCounts"
     memory: "MemoryReport"
@@ -914,7 +939,8 @@ class EvaluationRow(TypedDict, total=False):
     metrics:
         Its error; absent if there is a problem.
     pareto:
-        True = no other row is faster and misclassifies no more receivers. Absent in an event `row`.
+        True = no other row is faster and misclassifies no more receivers; of an environment's share, has no more
+        rms. Absent in an event `row`.
     problems:
         Why it could not be measured; absent if it was.
     """
@@ -937,7 +963,7 @@ class ReferenceReport(TypedDict, total=False):
     buildMilliseconds:
         Time of building the ray tracing structure, before tracing. Unit: milliseconds.
     samples:
-        Rays for each pixel towards lights that have a size.
+        Rays for each pixel towards lights that have a size, and towards an environment.
     frames:
         Number of traced references; variants that see the same share one.
     """

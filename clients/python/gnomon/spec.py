@@ -654,6 +654,10 @@ class EnvironmentOptions:
         and latitude.
     sky:
         A computed sky instead of a file.
+    studio:
+        The neutral studio that lights the scene where there is neither a file nor a sky; `ambient` is its
+        brightness and its color. lamps = a dim room with a lamp overhead and three around the scene; even = the
+        same all around, brighter above than at the sides and below. Default: "even".
     rotationDegrees:
         Turns the environment about the vertical axis, clockwise as seen from above. At 0 the middle of the picture
         lies towards +X and its right half towards +Z. Unit: degrees. Default: 0.0.
@@ -679,6 +683,7 @@ class EnvironmentOptions:
 
     file: Optional[str] = None
     sky: Optional[Union["Sky", Json]] = None
+    studio: Optional[Literal["lamps", "even"]] = None
     rotationDegrees: Optional[float] = None
     intensity: Optional[float] = None
     background: Optional[Literal["none", "environment", "blurred"]] = None
@@ -743,6 +748,38 @@ class MotionFrom:
     camera: Optional[Union["Camera", Json]] = None
     animation: Optional[Union["AnimationMoment", Json]] = None
     nodes: Optional[Sequence[Union["NodeOptions", Json]]] = None
+
+
+@dataclass
+class SunHours:
+    """What the view `sunHours` adds up: each step counts where the sun shines in its middle, from its centre. Of two
+    days that are 24 hours apart the second begins at the time of day of `begin`.
+
+    latitudeDegrees:
+        Latitude of the place, north of the equator positive; required. Unit: degrees.
+    longitudeDegrees:
+        Longitude of the place, east of Greenwich positive; required. Unit: degrees.
+    northDegrees:
+        Where true north lies in the scene, clockwise from -Z as seen from above; absent = 0. Unit: degrees.
+    begin:
+        Date and time with a zone at which the hours begin, as a sun's `time`; required.
+    end:
+        Date and time with a zone at which they end, later than `begin`; required. At most 10000 steps lie between
+        them, day and night.
+    stepMinutes:
+        Length of a step. Rays of a frame grow with the number of steps by day. Unit: minutes. Default: 10.0.
+    stepDays:
+        Each day that is looked at stands for so many, itself and the ones after it: 7 looks at one day of each
+        week. More than 1 needs whole days from `begin` to `end`. Unit: days. Default: 1.
+    """
+
+    latitudeDegrees: Optional[float] = None
+    longitudeDegrees: Optional[float] = None
+    northDegrees: Optional[float] = None
+    begin: Optional[str] = None
+    end: Optional[str] = None
+    stepMinutes: Optional[float] = None
+    stepDays: Optional[int] = None
 
 
 @dataclass
@@ -898,9 +935,14 @@ class FrameSpec:
         black where nothing is; position = the point that is seen, in the world: metres, infinity where none is; or
         its place in the scene's bounds as a color; motion = pixels that what is seen has moved in the picture since
         `motionFrom`: x to the right, y down, infinity where nothing is or was not before the camera then; or the
-        direction as a hue, the stronger the farther. Default: ["color"].
+        direction as a hue, the stronger the farther; sunHours = hours of direct sun in the time of `sunHours`: a
+        heat map (0 to all hours of daylight) with a scale, or numbers; black, or -1, where no surface is. Default:
+        ["color"].
     motionFrom:
         An earlier moment that the view `motion` compares with; required by that view.
+    sunHours:
+        Place and time whose hours of direct sun the view `sunHours` shows; required by that view. The frame's
+        lights do not matter to it.
     debug:
         What the debug views show.
     quality:
@@ -933,8 +975,9 @@ class FrameSpec:
     exposure: Optional[float] = None
     toneMapping: Optional[Literal["aces", "neutral", "agx", "none"]] = None
     antialiasing: Optional[Literal["none", "msaa4x"]] = None
-    views: Optional[Sequence[Literal["color", "depth", "normal", "cascades", "shadow", "atlas", "tile", "texelGrid", "texelDensity", "blendWeight", "bias", "casterIds", "lightContribution", "reference", "error", "edgeDistance", "ids", "instances", "materials", "albedo", "position", "motion"]]] = None
+    views: Optional[Sequence[Literal["color", "depth", "normal", "cascades", "shadow", "atlas", "tile", "texelGrid", "texelDensity", "blendWeight", "bias", "casterIds", "lightContribution", "reference", "error", "edgeDistance", "ids", "instances", "materials", "albedo", "position", "motion", "sunHours"]]] = None
     motionFrom: Optional[Union["MotionFrom", Json]] = None
+    sunHours: Optional[Union["SunHours", Json]] = None
     debug: Optional[Union["Debug", Json]] = None
     quality: Optional[Union["Quality", Json]] = None
     device: Optional[Literal["auto", "cpu", "gl"]] = None

@@ -90,7 +90,7 @@ TEST(SunSteps, OneDayOfAWeekIsEnoughForAYear) {
 
 TEST(SunSteps, WhatIsMissingOrReversedIsNamed) {
   EXPECT_THAT(wrongIn(SunHours{}), UnorderedElementsAre("/sunHours/latitudeDegrees", "/sunHours/longitudeDegrees",
-                                                "/sunHours/begin", "/sunHours/end"));
+                                                        "/sunHours/begin", "/sunHours/end"));
   EXPECT_THAT(wrongIn(munichFrom("2026-06-21T12:00+02:00", "2026-06-21T10:00Z")), ElementsAre("/sunHours/end"));
   EXPECT_THAT(wrongIn(munichFrom("2026-06-21T12:00", "2026-06-31T12:00Z")),
               UnorderedElementsAre("/sunHours/begin", "/sunHours/end"));
