@@ -219,9 +219,8 @@ TEST(EnvironmentFrames, LampsOfTheStudioAreMirroredAndTurned) {
     const auto brightest = [&](const Json& environment) {
       Json asked = spec;
       asked["environment"] = environment;
-      float most = 0;
-      for (const float value : floatsOf(drawn(device, scene, asked))) most = std::max(most, value);
-      return most;
+      const Frame frame = drawn(device, scene, asked);
+      return *std::max_element(floatsOf(frame).begin(), floatsOf(frame).end());
     };
     EXPECT_GT(brightest({{"studio", "lamps"}}), 1.3f * brightest({{"studio", "even"}})) << "a lamp in a mirror";
     EXPECT_EQ(brightest(Json::object()), brightest({{"studio", "even"}}));
