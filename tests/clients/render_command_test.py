@@ -56,6 +56,9 @@ class Render(CommandLine):
         scene.write_bytes(demo_with("gold", 1.9e9))
         self.render("--set", "shadow.technique=rayTraced", scene=str(scene))
 
+    def test_a_scene_without_a_name_is_a_problem_and_no_crash(self):
+        self.assert_ends(gnomon("render", "", "-o", str(self.output), *SMALL), PROBLEM, "gnomon: ")
+
     def test_an_image_that_is_missing_is_left_out(self):
         scene = Path(split_glb(Path(BOX).read_bytes(), self.folder))
         document = json.loads(scene.read_text())

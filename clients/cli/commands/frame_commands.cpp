@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "clients/cli/commands/commands.h"
 #include "clients/cli/commands/spec_flags.h"
@@ -115,7 +116,7 @@ class SceneRun {
   const RenderOptions& options_;
   ProgressLine& progress_;
   bool several_;
-  std::string scene_;
+  std::optional<std::string> scene_; ///< that was opened last
   Status opened_ = Done{};
 };
 
