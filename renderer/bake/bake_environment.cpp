@@ -69,11 +69,10 @@ class SkySums : public TexelSums {
         rect_(rect),
         rays_(raysOfPlace),
         goOn_(goOn),
-        texels_(static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height)) {}
+        texels_(texelsIn(rect)) {}
 
   void add(const TexelPlace& place) override {
-    SkyTexel& texel =
-        texels_[static_cast<std::size_t>((place.texel.y - rect_.y) * rect_.width + (place.texel.x - rect_.x))];
+    SkyTexel& texel = texels_[texelIn(rect_, place.texel)];
     texel.covered = true;
     if (!traced_.receives(place.triangle.instance)) return;
     stopIfAsked();

@@ -17,7 +17,7 @@ class LightSums : public TexelSums {
 
   void add(const TexelPlace& place) override {
     points_.push_back(light_.pointFacing(place.triangle, place.weights));
-    texels_.push_back(static_cast<std::size_t>((place.texel.y - rect_.y) * rect_.width + (place.texel.x - rect_.x)));
+    texels_.push_back(texelIn(rect_, place.texel));
     if (points_.size() == kPoints) trace();
   }
 
@@ -31,7 +31,7 @@ class LightSums : public TexelSums {
   }
 
  private:
-  std::size_t texels() const { return static_cast<std::size_t>(rect_.width) * static_cast<std::size_t>(rect_.height); }
+  std::size_t texels() const { return texelsIn(rect_); }
 
   void trace() {
     shares_.resize(points_.size());

@@ -20,10 +20,6 @@ struct Band {
   std::vector<std::uint32_t> triangles;
 };
 
-std::size_t texelsOf(const Rect& rect) {
-  return static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height);
-}
-
 std::vector<Band> bandsOf(const LightMapLayout& layout) {
   std::vector<Band> bands;
   for (std::size_t chart = 0; chart < layout.charts.size(); ++chart) {
@@ -194,7 +190,7 @@ std::optional<std::vector<LightMap>> bakeTexels(const LightMapLayout& layout, st
   const std::vector<Band> bands = bandsOf(layout);
   std::vector<Plane> planes(count, Plane(numberAt(layout, 0, layout.height), kUncovered));
   std::size_t texels = 0;
-  for (const Band& band : bands) texels += texelsOf(band.rect);
+  for (const Band& band : bands) texels += texelsIn(band.rect);
   Listener listener(progress, texels);
   const GoOn goOn = [&listener] { return listener.goOn(); };
   forEach(bands.size(), [&](std::size_t i) {
@@ -214,7 +210,7 @@ std::optional<std::vector<LightMap>> bakeTexels(const LightMapLayout& layout, st
         std::copy_n(from, rowLength, &planes[plane][numberAt(layout, band.rect.x, band.rect.y + row)]);
       }
     }
-    listener.done(texelsOf(band.rect));
+    listener.done(texelsIn(band.rect));
   });
   if (listener.stopped()) return std::nullopt;
   forEach(layout.charts.size(), [&](std::size_t i) {

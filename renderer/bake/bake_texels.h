@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -24,6 +25,16 @@ struct TexelPlace {
   glm::ivec2 texel{0};   ///< of the map
   int number = 0;        ///< of the texel's places, row by row
 };
+
+/// How many texels lie in a rectangle of the map.
+inline std::size_t texelsIn(const Rect& rect) {
+  return static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height);
+}
+
+/// Which of them a texel is, row by row. REQUIRES: it lies there.
+inline std::size_t texelIn(const Rect& rect, const glm::ivec2& texel) {
+  return static_cast<std::size_t>((texel.y - rect.y) * rect.width + (texel.x - rect.x));
+}
 
 /// Shares of a light that are summed over the places of texels. One thread at a time.
 class TexelSums {
