@@ -10,6 +10,7 @@
 #include "protocol/spec/traits.h"
 #include "renderer/core/linear_algebra.h"
 #include "renderer/prepare/lit_light.h"
+#include "renderer/resolve/studio_radiance.h"
 
 namespace gnomon {
 
@@ -167,8 +168,6 @@ std::vector<shared::TileData> tileData(const ShadowPlan& plan) {
 
 shared::FrameData frameData(const ResolvedFrame& frame) {
   const CameraView& view = frame.view;
-  const Vec3& ambient = frame.spec.ambient.color;
-  const double intensity = frame.spec.ambient.intensity;
   shared::FrameData data{};
   data.clipFromRelative = glm::mat4(clipFromView(view) * viewFromRelative(view));
   const glm::dmat4 clip = clipFromView(view);
@@ -182,7 +181,7 @@ shared::FrameData frameData(const ResolvedFrame& frame) {
   data.depthTerms = glm::vec2(clip[2][2], clip[3][2]);
   data.pixelStep = glm::vec2(2.0 / frame.spec.width, 2.0 / frame.spec.height);
   data.background = glm::vec4(toVector(background.color), background.alpha);
-  data.ambient = glm::vec3(toVector(ambient) * (intensity * frame.spec.environment.intensity.value_or(1)));
+  data.ambient = glm::vec3(studioRadiance(frame.spec));
   data.environmentTurn = glm::vec2(1, 0);
   data.exposureScale = static_cast<float>(std::exp2(frame.spec.exposure));
   data.ahead = static_cast<float>(view.ahead);

@@ -7,11 +7,10 @@
 #include <string>
 
 #include "protocol/spec/debug_light.h"
-#include "renderer/core/linear_algebra.h"
 #include "renderer/export/baked_glb.h"
 #include "renderer/frame/baked_scene.h"
-#include "renderer/frame/environment_lights.h"
 #include "renderer/image/picture_encode.h"
+#include "renderer/resolve/studio_radiance.h"
 #include "renderer/scene/scene.h"
 
 namespace gnomon {
@@ -95,11 +94,6 @@ Result<Bytes> exrOf(const BakedScene& baked, const Chosen& chosen) {
   return encodeExr(layers, ExrCompression::zip, ExrPixelType::float_);
 }
 
-/// Radiance of the studio, in the unit of the lights.
-glm::dvec3 studioOf(const FrameSpec& spec) {
-  return toVector(spec.ambient.color) * (spec.ambient.intensity * intensityOf(spec.environment));
-}
-
 Result<Bytes> glbOf(const BakedScene& baked, const Chosen& chosen) {
   const FrameSpec& spec = baked.frame.spec;
   std::vector<ShadowedLight> shadowed;
@@ -112,7 +106,7 @@ Result<Bytes> glbOf(const BakedScene& baked, const Chosen& chosen) {
   }
   std::optional<ShadowedEnvironment> environment;
   if (chosen.environment)
-    environment.emplace(ShadowedEnvironment{baked.around, studioOf(spec), *baked.environment.baked});
+    environment.emplace(ShadowedEnvironment{baked.around, studioRadiance(spec), *baked.environment.baked});
   const SceneView& view = baked.scene->scenes[static_cast<std::size_t>(baked.frame.scene)];
   const IrradianceMap map =
       irradianceMap(*baked.scene, view, baked.frame.nodes, shadowed, environment ? &*environment : nullptr);

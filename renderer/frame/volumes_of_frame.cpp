@@ -15,6 +15,7 @@
 #include "renderer/device/shader_data.h"
 #include "renderer/rays/trace.h"
 #include "renderer/resolve/plan_input.h"
+#include "renderer/resolve/studio_radiance.h"
 #include "renderer/scene/animation/posed_scene.h"
 #include "renderer/shaders/shared/functions.h"
 #include "renderer/volume/volume_light.h"
@@ -157,8 +158,7 @@ std::vector<ArrivalAt> arrivalsOf(const ShiningLights& shining, const LightShare
 glm::dvec3 meanAround(const ResolvedFrame& frame, const FrameEnvironment& environment) {
   if (environment.environment) return environment.environment->prefiltered.mean * environment.intensity;
   const double mean = environment.studioLamps ? 0.580 : 0.598; // of shared::radianceOfStudio
-  const double intensity = frame.spec.ambient.intensity * frame.spec.environment.intensity.value_or(1);
-  return toVector(frame.spec.ambient.color) * (intensity * mean);
+  return studioRadiance(frame.spec) * mean;
 }
 
 /// One a volume of the spec; null = it is hidden.
