@@ -143,7 +143,7 @@ class MemoryGroups(unittest.TestCase):
         try:
             group = MemoryGroup(f"gnomon-test-{limit}", limit)
         except OSError as error:
-            self.skipTest(f"no control group for memory can be made here: {error}")
+            self.skipTest(f"no control group for memory can be made here: {error.strerror or error}")
         self.addCleanup(group.close)
         within = ("sh", "-c", 'echo $$ > "$0/cgroup.procs" && exec "$@"', str(group.folder))
         with Server("--device", "cpu", by=within) as server:

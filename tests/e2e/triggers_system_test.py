@@ -77,6 +77,7 @@ class ShortOfEverything(unittest.TestCase):
             finally:
                 process.terminate()
                 process.wait(TIMEOUT)
+                process.stdin.close()
 
     def start_and_end(self, resource_kind, limit, *flags):
         return subprocess.run(

@@ -271,8 +271,9 @@ class ClosedProcesses(unittest.TestCase):
     def test_the_front_knows_a_workers_memory_where_the_system_hides_closed_processes(self):
         """As systemd's ProtectProc=invisible does."""
         hidden = ("unshare", "--mount", "sh", "-c", 'mount -t proc -o hidepid=invisible proc /proc && exec "$@"', "sh")
-        if subprocess.run([*hidden, "true"], capture_output=True).returncode != 0:
-            self.skipTest("processes can't be hidden here")
+        tried = subprocess.run([*hidden, "true"], capture_output=True, text=True)
+        if tried.returncode != 0:
+            self.skipTest(f"processes can't be hidden here: {tried.stderr.strip()}")
         with Server(*self.flags, by=(*hidden, *self.AS_ANOTHER)) as server:
             self.assert_memory_is_known(server)
 
