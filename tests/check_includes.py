@@ -65,7 +65,7 @@ MAY_INCLUDE = {
     "renderer/video": ["protocol", "renderer/core", "renderer/video"],
     "renderer": FRAME + ["renderer/evaluation", "renderer/export", "renderer/charts", "renderer/video", "renderer/cpu/cpu_device.h", "renderer/passes/gl_device.h",
                  "renderer"],
-    "server/system": ["protocol/base", "server/system"],
+    "server/system": ["protocol/base", "server/system", "renderer/core/control_groups.h"],
     "server/redis": ["protocol/base", "server/system", "server/redis"],
     "server/wire": BOTH_PROCESSES,
     "server/worker": BOTH_PROCESSES + ["server/worker", "renderer/core/file_access.h", "renderer/core/parallel.h", "renderer/core/system_calls.h"],

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/core/control_groups.h"
 #include "renderer/core/stop.h"
 
 namespace gnomon {
@@ -26,16 +27,6 @@ std::optional<double> limitOf(const std::filesystem::path& group) {
   return coresOfCpuMax(textOf(group / "cpu.cfs_quota_us") + " " + textOf(group / "cpu.cfs_period_us"));
 }
 
-/// The tightest limit from `group` up to `top`.
-std::optional<double> tightest(const std::filesystem::path& top, std::filesystem::path group) {
-  std::optional<double> least = limitOf(top);
-  while (group != top && group.has_relative_path() && group != group.parent_path()) {
-    if (const auto cores = limitOf(group); cores && (!least || *cores < *least)) least = cores;
-    group = group.parent_path();
-  }
-  return least;
-}
-
 } // namespace
 
 std::optional<double> coresOfCpuMax(std::string_view cpuMax) {
@@ -46,27 +37,17 @@ std::optional<double> coresOfCpuMax(std::string_view cpuMax) {
   return quota / period;
 }
 
-std::optional<double> coresGranted(const std::filesystem::path& root, std::string_view membership) {
+std::optional<double> coresGranted(const std::vector<std::filesystem::path>& groups) {
   std::optional<double> least;
-  std::istringstream lines{std::string(membership)};
-  for (std::string line; std::getline(lines, line);) { // "0::/group" in version 2, "4:cpu,cpuacct:/group" in version 1
-    const std::size_t controllers = line.find(':');
-    const std::size_t path = line.find(':', controllers + 1);
-    if (controllers == std::string::npos || path == std::string::npos) continue;
-    const std::string names = "," + line.substr(controllers + 1, path - controllers - 1) + ",";
-    const bool unified = names == ",,";
-    if (!unified && names.find(",cpu,") == std::string::npos) continue;
-    const std::filesystem::path top = unified ? root : root / "cpu";
-    const std::string group = line.substr(path + 1);
-    const auto cores = tightest(top, group == "/" ? top : top / std::filesystem::path(group).relative_path());
-    if (cores && (!least || *cores < *least)) least = cores;
+  for (const std::filesystem::path& group : groups) {
+    if (const auto cores = limitOf(group); cores && (!least || *cores < *least)) least = cores;
   }
   return least;
 }
 
 int coresToUse() {
   const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const auto granted = coresGranted("/sys/fs/cgroup", textOf("/proc/self/cgroup"));
+  const auto granted = coresGranted(controlGroups("cpu"));
   return granted && *granted < machine ? std::max(1, static_cast<int>(std::ceil(*granted))) : machine;
 }
 

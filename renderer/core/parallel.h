@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <string>
 #include <string_view>
+#include <vector>
 
 #include "protocol/base/result.h"
 
@@ -15,9 +15,8 @@ namespace gnomon {
 /// `cpuMax`: the text of cgroup v2's cpu.max, "150000 100000" or "max 100000", in microseconds.
 std::optional<double> coresOfCpuMax(std::string_view cpuMax);
 
-/// The tightest limit on this process: its control group's and every ancestor's.
-/// `root`: where control groups, version 1 or 2, are mounted; `membership`: the text of /proc/self/cgroup.
-std::optional<double> coresGranted(const std::filesystem::path& root, std::string_view membership);
+/// The tightest limit of these control groups (control_groups.h), of version 1 or 2.
+std::optional<double> coresGranted(const std::vector<std::filesystem::path>& groups);
 
 /// Cores to keep busy: the machine's, or as many as this process is granted where that is fewer; at least 1.
 int coresToUse();

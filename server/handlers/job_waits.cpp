@@ -90,7 +90,9 @@ bool isOver(const JobProgress& job) {
 Result<JobWaiting> waitingFor(Services& services, const RouteCall& call, JobProgress job, Clock::time_point until) {
   auto place = services.waits.place(call.request.client);
   if (!place) {
-    return Problem{ProblemCode::busy, "", "This client has its share of the replies that may wait for jobs.", "", ""};
+    return Problem{ProblemCode::busy, "",
+                   "This client, or its network, has its share of the replies that may wait for jobs.",
+                   std::to_string(services.waits.capacity()) + " of all clients", ""};
   }
   auto watched = services.jobNews.watch(job);
   return JobWaiting{std::move(place), std::move(watched), std::move(job), until};

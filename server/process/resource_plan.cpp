@@ -100,4 +100,16 @@ Result<DescriptorPlan> planDescriptors(std::size_t descriptors, const Descriptor
   return DescriptorPlan{std::min(left - scenes, kMostConnections), replies, scenes, jobs};
 }
 
+std::string shortageOf(const DescriptorPlan& plan, std::size_t descriptors) {
+  if (plan.waitingConnections >= kMostConnections && plan.waitingReplies >= kMostReplies && plan.jobs >= kMostJobs)
+    return "";
+  const auto ofMost = [](std::size_t has, std::size_t most, const char* what) {
+    return std::to_string(has) + " of " + std::to_string(most) + " " + what;
+  };
+  return "The system grants this process " + std::to_string(descriptors) + " open files (ulimit -n), room for " +
+         ofMost(plan.waitingReplies, kMostReplies, "replies that wait for jobs, ") +
+         ofMost(plan.waitingConnections, kMostConnections, "connections without a request and ") +
+         ofMost(plan.jobs, kMostJobs, "jobs.");
+}
+
 } // namespace gnomon

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "protocol/base/result.h"
 #include "server/process/serve.h"
@@ -46,5 +47,9 @@ struct DescriptorUse {
 /// meets the limit; then scenes and waiting connections get the rest in equal parts. unavailable where too little is
 /// left.
 Result<DescriptorPlan> planDescriptors(std::size_t descriptors, const DescriptorUse& use);
+
+/// What an operator has to know of a plan with fewer connections, replies or jobs than a server has where the system
+/// grants enough; "" of any other.
+std::string shortageOf(const DescriptorPlan& plan, std::size_t descriptors);
 
 } // namespace gnomon

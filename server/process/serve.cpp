@@ -171,12 +171,13 @@ int serve(const ServeOptions& options, ServeInputs inputs, std::vector<StaticFil
   }
   Signals signals(reload, std::move(starter));
   if (inputs.keys) inputs.keys->warnOfReaders();
-  const auto descriptors =
-      planDescriptors(raiseDescriptorLimit(), {.httpThreads = options.httpThreads,
-                                               .workers = workersOf(options),
-                                               .jobFrames = jobFramesOf(options),
-                                               .keepsScenesInMemory = keepsScenesInMemory(options)});
+  const std::size_t granted = raiseDescriptorLimit();
+  const auto descriptors = planDescriptors(granted, {.httpThreads = options.httpThreads,
+                                                     .workers = workersOf(options),
+                                                     .jobFrames = jobFramesOf(options),
+                                                     .keepsScenesInMemory = keepsScenesInMemory(options)});
   if (!descriptors) return failed(descriptors.problems());
+  if (const std::string shortage = shortageOf(*descriptors, granted); !shortage.empty()) logEvent("files", shortage);
   boundHeaps(coresToUse() + 1);
   std::signal(SIGPIPE, SIG_IGN); // a log without a reader must not end the server
 

@@ -41,6 +41,8 @@ class FairShares {
   /// `most`: of one client, instead of half of what others leave; 0 = that half.
   explicit FairShares(std::size_t capacity, std::size_t most = 0) : capacity_(capacity), most_(most) {}
 
+  std::size_t capacity() const { return capacity_; }
+
   /// False where this client has its share, or all are taken.
   bool take(const ClientIdentity& client) {
     const std::lock_guard lock(mutex_);

@@ -4,8 +4,9 @@
 #include <cstdlib>
 #include <fstream>
 #include <malloc.h>
-#include <sstream>
 #include <unistd.h>
+
+#include "renderer/core/control_groups.h"
 
 namespace gnomon {
 namespace {
@@ -16,32 +17,14 @@ std::optional<std::uint64_t> numberIn(const std::filesystem::path& path) {
   return file >> number ? std::optional(number) : std::nullopt; // "max" is no number
 }
 
-/// The least number in files of this name, from a group up to the root.
-std::optional<std::uint64_t> leastUpwards(const std::filesystem::path& root, std::filesystem::path group,
-                                          const char* name) {
-  std::optional<std::uint64_t> least;
-  while (true) {
-    const auto granted = numberIn(root / group.relative_path() / name);
-    if (granted) least = std::min(*granted, least.value_or(*granted));
-    if (!group.has_relative_path()) return least;
-    group = group.parent_path();
-  }
-}
-
 } // namespace
 
-std::optional<std::uint64_t> memoryGranted(const std::filesystem::path& root, const std::string& ownGroups) {
+std::optional<std::uint64_t> memoryGranted(const std::vector<std::filesystem::path>& groups) {
   std::optional<std::uint64_t> least;
-  std::istringstream lines(ownGroups);
-  for (std::string line; std::getline(lines, line);) { // "0::/path", or "9:memory:/path" of version 1
-    const std::size_t controllers = line.find(':');
-    const std::size_t path = line.find(':', controllers + 1);
-    if (path == std::string::npos) continue;
-    const bool isFirst = line.substr(controllers + 1, path - controllers - 1) == "memory";
-    if (!isFirst && path != controllers + 1) continue;
-    const auto granted = isFirst ? leastUpwards(root / "memory", line.substr(path + 1), "memory.limit_in_bytes")
-                                 : leastUpwards(root, line.substr(path + 1), "memory.max");
-    if (granted) least = std::min(*granted, least.value_or(*granted));
+  for (const std::filesystem::path& group : groups) {
+    for (const char* name : {"memory.max", "memory.limit_in_bytes"}) {
+      if (const auto granted = numberIn(group / name)) least = std::min(*granted, least.value_or(*granted));
+    }
   }
   return least;
 }
@@ -49,9 +32,7 @@ std::optional<std::uint64_t> memoryGranted(const std::filesystem::path& root, co
 std::uint64_t memoryLimit() {
   const auto machine =
       static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-  std::ostringstream ownGroups;
-  ownGroups << std::ifstream("/proc/self/cgroup").rdbuf();
-  return std::min(machine, memoryGranted("/sys/fs/cgroup", ownGroups.str()).value_or(machine));
+  return std::min(machine, memoryGranted(controlGroups("memory")).value_or(machine));
 }
 
 std::uint64_t dataWithin(std::uint64_t memoryBytes, const std::string& status) {

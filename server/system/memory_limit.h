@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace gnomon {
 
@@ -12,9 +13,9 @@ namespace gnomon {
 /// the machine has.
 std::uint64_t memoryLimit();
 
-/// The least limit of a control group and those above it (cgroups(7): memory.max of version 2, memory.limit_in_bytes of
-/// version 1). `root`: where they are mounted. `ownGroups`: the text of /proc/self/cgroup. Nothing = none is set.
-std::optional<std::uint64_t> memoryGranted(const std::filesystem::path& root, const std::string& ownGroups);
+/// The least limit of these control groups (renderer/core/control_groups.h): memory.max of version 2,
+/// memory.limit_in_bytes of version 1. Nothing = none is set.
+std::optional<std::uint64_t> memoryGranted(const std::vector<std::filesystem::path>& groups);
 
 /// The most data (RLIMIT_DATA of setrlimit(2), which counts what is reserved, too) with which this process stays within
 /// so many bytes of memory, so that an allocation fails before the process is killed for more. What it has reserved and

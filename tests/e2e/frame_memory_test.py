@@ -1,18 +1,20 @@
 """What a frame is said to take is what it takes, in memory and time; where there is little of either, each frame is a
 picture or a refusal that says why."""
 
-import contextlib
 import itertools
 import json
 import os
 import struct
-import tempfile
+import sys
 import threading
 import unittest
 from pathlib import Path
 
 import shipped_server
-from shipped_server import BINARY, SCENES, Server, form, workers_of
+from shipped_server import SCENES, Server, form, workers_of
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "soak"))
+from memory_group import MemoryGroup  # noqa: E402
 
 MB = 1 << 20
 SUN = {"sun": {"azimuthDegrees": 30, "elevationDegrees": 40}}
@@ -132,58 +134,20 @@ class Estimates(unittest.TestCase):
                     self.assertLessEqual(estimate, 2 * peak + 24 * MB)
 
 
-@contextlib.contextmanager
-def memory_group(limit):
-    """A control group of its own with so much memory; None where this system lets no test make one."""
-    name = f"gnomon-test-{os.getpid()}-{limit}"
-    for top, setting in ((Path("/sys/fs/cgroup/memory"), "memory.limit_in_bytes"), (Path("/sys/fs/cgroup"), "memory.max")):
-        group = top / name
-        try:
-            group.mkdir()
-            (group / setting).write_text(str(limit))
-        except OSError:
-            with contextlib.suppress(OSError):
-                group.rmdir()
-            continue
-        try:
-            yield group
-        finally:
-            for _ in range(100):
-                with contextlib.suppress(OSError):
-                    group.rmdir()
-                    break
-                threading.Event().wait(0.05)
-        return
-    yield None
-
-
-@contextlib.contextmanager
-def server_within(group, *flags):
-    """A server whose processes are all in the group."""
-    with tempfile.TemporaryDirectory() as directory:
-        started = Path(directory) / "gnomon"
-        started.write_text(f'#!/bin/sh\necho $$ > "{group}/cgroup.procs" && exec "{BINARY}" "$@"\n')
-        started.chmod(0o755)
-        before, shipped_server.BINARY = shipped_server.BINARY, str(started)
-        try:
-            server = Server(*flags)
-        finally:
-            shipped_server.BINARY = before
-        with server:
-            yield server
-
-
 SIZES = [(640, 360), (1920, 1080), (2048, 2048), (3900, 2193), (4500, 2531)]
 FORMATS = [{"format": "png"}, {"format": "exr"}, {"format": "npz"}]
 
 
 class MemoryGroups(unittest.TestCase):
     def check(self, limit):
-        with memory_group(limit) as group:
-            if group is None:
-                self.skipTest("no control group for memory can be made here")
-            with server_within(group, "--device", "cpu") as server:
-                self.draw_all(server)
+        try:
+            group = MemoryGroup(f"gnomon-test-{limit}", limit)
+        except OSError as error:
+            self.skipTest(f"no control group for memory can be made here: {error.strerror or error}")
+        self.addCleanup(group.close)
+        within = ("sh", "-c", 'echo $$ > "$0/cgroup.procs" && exec "$@"', str(group.folder))
+        with Server("--device", "cpu", by=within) as server:
+            self.draw_all(server)
 
     def draw_all(self, server):
         scene, cloudy = upload(server), upload(server, volumes=2, side=32)

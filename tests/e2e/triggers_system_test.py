@@ -6,11 +6,13 @@ import shutil
 import socket
 import subprocess
 import tempfile
-import time
 import unittest
 from pathlib import Path
 
+from redis_place import free_port
+from rights import needs_to_see_closed_processes
 from shipped_server import BINARY, SLOW, TIMEOUT, Server, environment
+from store_test import until
 
 CLOSING_PROBE = b"GET /livez HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"
 
@@ -51,22 +53,31 @@ class ShortOfEverything(unittest.TestCase):
                     self.assertEqual(server.get("/livez").status, 200)
                 self.assertEqual(server.end(), 0)
 
+    def serves(self, port):
+        try:
+            with socket.create_connection(("127.0.0.1", port), timeout=TIMEOUT) as connection:
+                connection.sendall(CLOSING_PROBE)
+                return connection.recv(12) == b"HTTP/1.1 200"
+        except ConnectionError:
+            return False
+
     def test_streams_that_are_closed_at_the_start_are_the_null_device(self):
         for closing in ("2>&-", "1>&- 2>&-", "0<&- 1>&- 2>&-"):
+            port = free_port()  # what it prints may be lost
             process = subprocess.Popen(
-                ["sh", "-c", f'exec "$0" "$@" {closing}', BINARY, "serve", "--port", "0", "--device", "cpu"],
-                stdin=subprocess.PIPE, env=environment(),
+                ["sh", "-c", f'exec "$0" "$@" {closing}', BINARY, "serve", "--port", str(port), "--device", "cpu"],
+                stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, env=environment(),
             )  # fmt: skip
             try:
-                deadline = time.monotonic() + TIMEOUT
-                links = Path(f"/proc/{process.pid}/fd")
-                while len(list(links.iterdir())) < 12 and time.monotonic() < deadline:  # until it serves
-                    time.sleep(0.05)
-                for stream in closing.split():
-                    self.assertEqual(os.readlink(links / stream[0]), "/dev/null", closing)
+                self.assertTrue(until(lambda port=port: self.serves(port)), closing)
+                with self.subTest("its descriptors", closing=closing):
+                    needs_to_see_closed_processes()
+                    for stream in closing.split():
+                        self.assertEqual(os.readlink(f"/proc/{process.pid}/fd/{stream[0]}"), "/dev/null")
             finally:
                 process.terminate()
                 process.wait(TIMEOUT)
+                process.stdin.close()
 
     def start_and_end(self, resource_kind, limit, *flags):
         return subprocess.run(

@@ -25,14 +25,17 @@ def killed(pid):
 
 
 class MemoryGroup:
-    """A group for processes that are started with `enter`; OSError where the system has none to give."""
+    """A group for processes that are started with `enter`; OSError, with the reason, where the system has none to give."""
 
     def __init__(self, name, limit):
         first = (ROOT / "memory").is_dir()
         self.folder = (ROOT / "memory" if first else ROOT) / f"{name}-{os.getpid()}"
         self.folder.mkdir()
         try:
-            (self.folder / ("memory.limit_in_bytes" if first else "memory.max")).write_text(str(limit))
+            setting = self.folder / ("memory.limit_in_bytes" if first else "memory.max")
+            if not setting.exists():
+                raise FileNotFoundError(f"{setting.parent.parent} gives its groups no limit of memory")
+            setting.write_text(str(limit))
         except OSError:
             self.folder.rmdir()
             raise

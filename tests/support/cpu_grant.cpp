@@ -9,21 +9,29 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "renderer/core/control_groups.h"
+
 namespace gnomon {
 namespace {
 
-/// Puts a folder that grants `cores` over the mounted control groups, for this process alone.
+constexpr const char* kMounted = "/sys/fs/cgroup"; // where systems and containers have them
+
+/// Puts a folder over the mounted control groups, for this process alone, in which its own grants `cores`.
 bool mountGrant(int cores) {
   const bool root = geteuid() == 0;
   if (unshare(root ? CLONE_NEWNS : CLONE_NEWNS | CLONE_NEWUSER) != 0) return false;
   if (mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) return false;
-  if (mount("none", "/sys/fs/cgroup", "tmpfs", 0, nullptr) != 0) return false;
-  const std::filesystem::path groups = "/sys/fs/cgroup";
-  std::filesystem::create_directory(groups / "cpu");
-  std::ofstream(groups / "cpu.max") << cores * 100000 << " 100000\n";
-  std::ofstream(groups / "cpu/cpu.cfs_quota_us") << cores * 100000 << '\n';
-  std::ofstream(groups / "cpu/cpu.cfs_period_us") << "100000\n";
-  return true;
+  if (mount("none", kMounted, "tmpfs", 0, nullptr) != 0) return false;
+  bool any = false;
+  for (const std::filesystem::path& group : controlGroups("cpu")) {
+    if (!group.string().starts_with(kMounted)) continue;
+    std::filesystem::create_directories(group);
+    std::ofstream(group / "cpu.max") << cores * 100000 << " 100000\n";
+    std::ofstream(group / "cpu.cfs_quota_us") << cores * 100000 << '\n';
+    std::ofstream(group / "cpu.cfs_period_us") << "100000\n";
+    any = true;
+  }
+  return any;
 }
 
 } // namespace

@@ -35,25 +35,14 @@ TEST_F(CpuQuota, readsCpuMax) {
   EXPECT_EQ(coresOfCpuMax(""), std::nullopt);
 }
 
-TEST_F(CpuQuota, takesTheTightestOfTheAncestors) {
+TEST_F(CpuQuota, takesTheTightestOfBothVersions) {
   write(root_ / "a/cpu.max", "200000 100000");
   write(root_ / "a/b/cpu.max", "400000 100000");
-  EXPECT_EQ(coresGranted(root_, "0::/a/b\n"), 2.0);
-  EXPECT_EQ(coresGranted(root_, "0::/c\n"), std::nullopt);
-}
-
-TEST_F(CpuQuota, takesTheMountOfAContainer) {
-  write(root_ / "cpu.max", "50000 100000");
-  EXPECT_EQ(coresGranted(root_, "0::/\n"), 0.5);
-  EXPECT_EQ(coresGranted(root_, "0::/../../outside\n"), 0.5);
-}
-
-TEST_F(CpuQuota, knowsVersionOne) {
-  write(root_ / "cpu/job/cpu.cfs_quota_us", "300000\n");
-  write(root_ / "cpu/job/cpu.cfs_period_us", "100000\n");
-  EXPECT_EQ(coresGranted(root_, "5:memory:/job\n4:cpu,cpuacct:/job\n"), 3.0);
-  EXPECT_EQ(coresGranted(root_, "5:cpuset:/job\n"), std::nullopt);
-  EXPECT_EQ(coresGranted(root_, "nonsense"), std::nullopt);
+  write(root_ / "c/cpu.cfs_quota_us", "300000\n");
+  write(root_ / "c/cpu.cfs_period_us", "100000\n");
+  EXPECT_EQ(coresGranted({root_, root_ / "a", root_ / "a/b"}), 2.0);
+  EXPECT_EQ(coresGranted({root_ / "a/b", root_ / "c"}), 3.0);
+  EXPECT_EQ(coresGranted({root_, root_ / "d"}), std::nullopt);
 }
 
 TEST(Parallel, CallsEveryIndexOnce) {

@@ -79,6 +79,17 @@ TEST(DescriptorPlan, TooFewAreAProblemThatSaysHowManyItTakes) {
   EXPECT_TRUE(planDescriptors(256, {.httpThreads = 8, .workers = 2, .jobFrames = 2}));
 }
 
+TEST(DescriptorPlan, WhatIsFewerForWantOfFilesIsNamed) {
+  const DescriptorPlan few = *planDescriptors(4'096, kUse);
+  const std::string shortage = shortageOf(few, 4'096);
+  for (const std::string& part :
+       {std::string("4096 open files"), std::to_string(few.waitingReplies) + " of 1024 replies",
+        std::to_string(few.waitingConnections) + " of 2048 connections", std::to_string(few.jobs) + " of 256 jobs"})
+    EXPECT_NE(shortage.find(part), std::string::npos) << shortage;
+  EXPECT_LT(few.waitingReplies, 1'024u);
+  EXPECT_EQ(shortageOf(*planDescriptors(20'000, kUse), 20'000), "");
+}
+
 TEST(DescriptorPlan, FramesOfJobsHaveTheirFiles) {
   DescriptorUse use = kUse;
   use.jobFrames = 512; // each has at least a request and a reply

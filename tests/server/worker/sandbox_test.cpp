@@ -71,6 +71,11 @@ int escapeFrom(Seal kind, const Escape& escape, const std::string& secret) {
   });
 }
 
+/// Containers refuse the call altogether, even of a process with itself.
+bool mayCompareFiles() {
+  return ::syscall(SYS_kcmp, ::getpid(), ::getpid(), 0, 0, 0) == 0;
+}
+
 TEST(Sandbox, WhatATakenOverWorkerTriesIsRefused) {
   const Secret secret;
   for (const Escape& escape : escapes()) {
@@ -138,8 +143,11 @@ TEST(Sandbox, NoneOfThatIsRefusedToOthersOfTheUser) {
     // The one may be switched off, and the other meets processes of root that have more rights.
     const std::string_view what = escape.what;
     if (what == "queue calls" || what == "set the user's priority") continue;
+    if (what == "compare files" && !mayCompareFiles()) continue;
     EXPECT_EQ(result, 1) << escape.what;
   }
+  if (!mayCompareFiles())
+    GTEST_SKIP() << "the system refuses kcmp(2), as containers do: \"compare files\" shows nothing";
 }
 
 TEST(Sandbox, AProcessThatIsNotDumpableIsClosedToItsUser) {
