@@ -25,7 +25,7 @@ GNOMON_FUNCTION vec3 environmentRadiance(EnvironmentTexels texels, vec3 directio
 GNOMON_FUNCTION vec3 environmentReflected(EnvironmentTexels texels, vec2 turn, SurfacePoint s, vec3 baseColor,
                                           Real metallic, Real roughness, vec3 face, vec4 arriving) {
   vec3 mirrored = mirroredBy(s);
-  vec3 around = environmentRadiance(texels, inEnvironment(mirrored, turn), roughness);
+  vec3 around = environmentRadiance(texels, inEnvironment(middleOfLobe(s, mirrored), turn), roughness);
   vec3 diffuse = environmentIrradiance(texels, inEnvironment(s.normal, turn));
   return reflectedAround(s, baseColor, metallic, face, mirrored, diffuse, around, arriving);
 }
