@@ -89,7 +89,8 @@ def measured(folder):
             continue
         other, said = np.load(file)[..., :3], json.loads(about.read_text())
         rows.append({"case": folder.name, "engine": engine, "version": said["version"],
-                     "milliseconds": float(np.median(said["times"])), **distance(judge, other, where)})
+                     "milliseconds": float(np.median(said["times"])), "processorMilliseconds": said["processor"],
+                     **distance(judge, other, where)})
         pictures.append(np.where(cover[..., None] > 0, other, 0))
     return rows, np.concatenate([(255 * srgb(picture) + 0.5).astype(np.uint8) for picture in pictures], 1)
 
@@ -103,7 +104,7 @@ def table(rows, judged):
         cells = []
         for engine in engines:
             row = found.get(engine)
-            text = row and f"{100 * row['share']:.1f} %, {row['ssim']:.3f}, {row['milliseconds']:.0f} ms"
+            text = row and f"{100 * row['share']:.1f} %, {row['ssim']:.3f}, {row['processorMilliseconds']:.0f} ms"
             cells.append("-" if row is None else f"**{text}**" if row["share"] == nearest else text)
         lines.append(f"| {case} | " + " | ".join(cells) + f" | {milliseconds / 1000:.0f} s |")
     return lines
@@ -120,7 +121,7 @@ def main(drawn, output):
         sys.exit(f"Nothing in {drawn} was drawn by {JUDGE}, which all others are compared with.")
     versions = sorted({f"{row['engine']} {row['version']}" for row in rows})
     text = ["<!-- readme -->", "Of each: mean absolute difference to Cycles in linear light, as a share of its mean light; "
-            "SSIM; median time of a warm frame. Bold: the nearest.", "", *table(rows, judged), "<!-- /readme -->", "",
+            "SSIM; processor time of a warm frame, of all cores together. Bold: the nearest.", "", *table(rows, judged), "<!-- /readme -->", "",
             "Versions: " + ", ".join(versions) + "."]
     (output / "environments.md").write_text("\n".join(text) + "\n")
     (output / "environments.json").write_text(json.dumps(rows, indent=1) + "\n")
