@@ -13,19 +13,21 @@ GNOMON_FUNCTION vec3 environmentIrradiance(EnvironmentTexels texels, vec3 normal
   return environmentAt(texels, octahedral(normal), Real(GNOMON_IRRADIANCE_SQUARE));
 }
 
-// Mean radiance over a GGX lobe about a direction of the map. `roughness` is perceptual.
+// Mean radiance over a GGX lobe about a direction of the map. `roughness` is perceptual; lobes are as wide as its
+// square, and so are levels mixed.
 GNOMON_FUNCTION vec3 environmentRadiance(EnvironmentTexels texels, vec3 direction, Real roughness) {
   vec2 place = octahedral(direction);
   Real at = clamp(roughness, 0.0f, 1.0f) * float(GNOMON_ENVIRONMENT_LEVELS - 1);
   Real below = min(floor(at), float(GNOMON_ENVIRONMENT_LEVELS - 2));
-  return mix(environmentAt(texels, place, below), environmentAt(texels, place, below + 1.0f), at - below);
+  Real share = (at * at - below * below) / (below * 2.0f + 1.0f);
+  return mix(environmentAt(texels, place, below), environmentAt(texels, place, below + 1.0f), share);
 }
 
 // What a surface shows of the environment, as reflectedAround has it.
 GNOMON_FUNCTION vec3 environmentReflected(EnvironmentTexels texels, vec2 turn, SurfacePoint s, vec3 baseColor,
                                           Real metallic, Real roughness, vec3 face, vec4 arriving) {
   vec3 mirrored = mirroredBy(s);
-  vec3 around = environmentRadiance(texels, inEnvironment(mirrored, turn), roughness);
+  vec3 around = environmentRadiance(texels, inEnvironment(middleOfLobe(s, mirrored), turn), roughness);
   vec3 diffuse = environmentIrradiance(texels, inEnvironment(s.normal, turn));
   return reflectedAround(s, baseColor, metallic, face, mirrored, diffuse, around, arriving);
 }

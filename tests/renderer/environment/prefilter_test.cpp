@@ -134,6 +134,22 @@ TEST(Prefilter, LookupsAreNearToTheSumAtAnyRoughness) {
   }
 }
 
+TEST(Prefilter, WhatIsNearlySmoothIsHardlyBlurred) {
+  EnvironmentMap map = uniformMap(512, glm::vec3(1));
+  for (std::size_t i = map.texels.size() / 2; i < map.texels.size(); ++i) map.texels[i] = glm::vec3(0);
+  const PrefilteredEnvironment made = prefiltered(map);
+  const double degrees = glm::pi<double>() / 180;
+  for (const double turn : {0.3, 1.1, 2.6, 4.4}) {
+    const auto shown = [&](double elevation) {
+      const double across = std::cos(elevation * degrees), up = std::sin(elevation * degrees);
+      const glm::vec3 direction(across * std::cos(turn), up, across * std::sin(turn));
+      return shared::environmentRadiance(made.texels.data(), direction, 0.05f).x;
+    };
+    EXPECT_GT(shown(1.5), 0.95f) << "0.99 of the lobe lies above the horizon";
+    EXPECT_LT(shown(-1.5), 0.05f);
+  }
+}
+
 /// One step across an edge of the octahedron changes a lookup by no more than a step elsewhere may.
 TEST(Prefilter, NoSeamShowsAtTheEdgesOfTheOctahedron) {
   EnvironmentMap map = noisyMap(512);

@@ -5,6 +5,7 @@ import '@babylonjs/core/Engines/Extensions/engine.readTexture.js';
 import { ImportMeshAsync } from '@babylonjs/core/Loading/sceneLoader.js';
 import { HDRCubeTexture } from '@babylonjs/core/Materials/Textures/hdrCubeTexture.js';
 import { RenderTargetTexture } from '@babylonjs/core/Materials/Textures/renderTargetTexture.js';
+import { CubeMapToSphericalPolynomialTools } from '@babylonjs/core/Misc/HighDynamicRange/cubemapToSphericalPolynomial.js';
 import { Color4 } from '@babylonjs/core/Maths/math.color.js';
 import { Vector3 } from '@babylonjs/core/Maths/math.vector.js';
 import { Scene } from '@babylonjs/core/scene.js';
@@ -15,6 +16,9 @@ import { offer, turnedRows } from './frames.mjs';
 const radians = (degrees) => degrees * Math.PI / 180;
 const kTextureTypeFloat = 1; // Constants.TEXTURETYPE_FLOAT
 const kFaceSide = 256; // filtering takes some seconds without a GPU
+
+// Else the diffuse light of texels above 4096 is lost, and with it most of a sun.
+CubeMapToSphericalPolynomialTools.MAX_HDRI_VALUE = Infinity;
 
 async function open(canvas, setup) {
   const { width, height, camera: given } = setup;

@@ -1,13 +1,11 @@
-// The judge: Blender's Cycles, in a process of its own.
+// The judge: Blender's Cycles, in a process of its own, which draws one case after another.
 import { execFileSync } from 'node:child_process';
-import fs from 'node:fs';
 import path from 'node:path';
 
-export function drawByCycles(folder, setup) {
-  const drawn = path.join(folder, 'Cycles');
+// Each of `folders` has its setup.json.
+export function drawByCycles(folders) {
   execFileSync(process.env.BLENDER ?? 'blender', ['--background', '--factory-startup', '--python-exit-code', '1', '--python',
-    path.join(import.meta.dirname, 'cycles.py'), '--', path.join(folder, 'setup.json'), drawn],
+    path.join(import.meta.dirname, 'cycles.py'), '--',
+    ...folders.flatMap((folder) => [path.join(folder, 'setup.json'), path.join(folder, 'Cycles')])],
   { stdio: ['ignore', 'ignore', 'inherit'] });
-  const { version, milliseconds } = JSON.parse(fs.readFileSync(`${drawn}.json`));
-  return { version, times: [milliseconds] };
 }

@@ -1,9 +1,9 @@
-"""Draws a model in the light of an environment by Blender's Cycles.
+"""Draws models in the light of an environment by Blender's Cycles.
 
-usage: blender --background --factory-startup --python cycles.py -- SETUP FILE
+usage: blender --background --factory-startup --python cycles.py -- SETUP FILE [SETUP FILE]...
 
 SETUP is a file of JSON, as draw_environments.mjs makes it. Writes FILE.npy: rows from the top, red, green, blue in linear
-light, and the share of the pixel that the model covers; and FILE.json: {"version", "milliseconds"}.
+light, and the share of the pixel that the model covers; and FILE.json: {"version", "times": [milliseconds]}.
 """
 
 import json
@@ -44,6 +44,62 @@ def make_lambert(albedo):
     for thing in bpy.context.scene.objects:
         for slot in thing.material_slots:
             slot.material = matt
+
+
+def source_of(given):
+    """What an input of a node gets: another's output, or a constant."""
+    if given.is_linked:
+        return given.links[0].from_socket
+    return given.default_value if given.type == "VALUE" else tuple(given.default_value)[:3]
+
+
+def computed(tree, kind, operation, **sources):
+    node = tree.nodes.new(kind)
+    node.operation = operation
+    for name, source in sources.items():
+        given = node.inputs[int(name[1:])]
+        if isinstance(source, bpy.types.NodeSocket):
+            tree.links.new(source, given)
+        else:
+            given.default_value = source
+    return node.outputs[0]
+
+
+def product(tree, a, b):
+    return computed(tree, "ShaderNodeMath", "MULTIPLY", _0=a, _1=b)
+
+
+def scaled(tree, color, factor):
+    return computed(tree, "ShaderNodeVectorMath", "SCALE", _0=color, _3=factor)
+
+
+def rest_of(tree, share):
+    return computed(tree, "ShaderNodeMath", "SUBTRACT", _0=1, _1=share)
+
+
+def shade_as_gltf(tree):
+    """Lambert's diffuse light, less what is mirrored over it, and a lobe that loses no light between microfacets. Blender 3.4
+    imports Burley's diffuse light, in full, and a lobe that does. Transmissive materials keep their diffuse light."""
+    for shader in [node for node in tree.nodes if node.type == "BSDF_PRINCIPLED"]:
+        shader.distribution = "MULTI_GGX"
+        given = shader.inputs
+        if given["Transmission"].is_linked or given["Transmission"].default_value > 0:
+            continue
+        diffuse, fresnel, both = (tree.nodes.new(kind) for kind in (
+            "ShaderNodeBsdfDiffuse", "ShaderNodeFresnel", "ShaderNodeAddShader"))
+        fresnel.inputs["IOR"].default_value = 1.5
+        if given["Normal"].is_linked:
+            for node in (diffuse, fresnel):
+                tree.links.new(source_of(given["Normal"]), node.inputs["Normal"])
+        color, metallic = source_of(given["Base Color"]), source_of(given["Metallic"])
+        below = product(tree, rest_of(tree, metallic), rest_of(tree, fresnel.outputs[0]))
+        shown = product(tree, below, source_of(given["Alpha"]))
+        tree.links.new(scaled(tree, color, shown), diffuse.inputs["Color"])
+        tree.links.new(scaled(tree, color, metallic), given["Base Color"])
+        for link in list(shader.outputs["BSDF"].links):
+            tree.links.new(both.outputs[0], link.to_socket)
+        tree.links.new(shader.outputs["BSDF"], both.inputs[0])
+        tree.links.new(diffuse.outputs["BSDF"], both.inputs[1])
 
 
 def light_by(setup):
@@ -96,11 +152,15 @@ def set_engine(setup, file):
     cycles.transparent_max_bounces = 16
 
 
-def main(path, file):
+def draw(path, file):
     setup = json.loads(Path(path).read_text())
     load(setup)
     if "lambert" in setup:
         make_lambert(setup["lambert"])
+    elif setup.get("materials", "glTF") == "glTF":
+        for material in bpy.data.materials:
+            if material.use_nodes:
+                shade_as_gltf(material.node_tree)
     light_by(setup)
     add_camera(setup)
     set_engine(setup, file + ".exr")
@@ -111,8 +171,12 @@ def main(path, file):
     pixels = numpy.empty(4 * setup["width"] * setup["height"], numpy.float32)
     drawn.pixels.foreach_get(pixels)
     numpy.save(file + ".npy", pixels.reshape(setup["height"], setup["width"], 4)[::-1])
-    about = {"version": bpy.app.version_string, "milliseconds": milliseconds}
-    Path(file + ".json").write_text(json.dumps(about))
+    Path(file + ".json").write_text(json.dumps({"version": bpy.app.version_string, "times": [milliseconds]}))
 
 
-main(*sys.argv[-2:])
+def main(given):
+    for path, file in zip(given[::2], given[1::2]):
+        draw(path, file)
+
+
+main(sys.argv[sys.argv.index("--") + 1:])

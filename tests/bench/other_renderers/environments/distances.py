@@ -19,6 +19,7 @@ import numpy as np
 JUDGE = "Cycles"
 ENGINES = ("Gnomon, cpu", "Gnomon, gl", "three.js", "Babylon.js", "Khronos viewer")
 SSIM_SIGMA, SSIM_REACH = 1.5, 5
+BLOCK = 4  # pixels; the judge's noise counts less in their means
 BRIGHTEST = 4.0  # of what is compared: one highlight would outweigh all else
 
 
@@ -56,13 +57,23 @@ def inside(cover, reach=1):
     return solid
 
 
+def blocks(picture, where, side):
+    """Means of squares of `side` pixels that lie wholly in `where`; what is left beyond the last whole square does not count."""
+    height, width = (length // side * side for length in where.shape)
+    shape = (height // side, side, width // side, side)
+    return picture[:height, :width].reshape(*shape, 3).mean((1, 3))[where[:height, :width].reshape(shape).all((1, 3))]
+
+
 def distance(judge, other, where):
     """In linear light, each number clipped at BRIGHTEST: the mean absolute difference, that as a share of the judge's mean
-    light, and the ratio of all light; and SSIM of luminance as it is seen."""
-    a, b = np.clip(judge, 0, BRIGHTEST)[where], np.clip(other, 0, BRIGHTEST)[where]
+    light, the same of means over squares of pixels, and the ratio of all light; and SSIM of luminance as it is seen."""
+    judged, shown = np.clip(judge, 0, BRIGHTEST), np.clip(other, 0, BRIGHTEST)
+    a, b = judged[where], shown[where]
+    squares = [blocks(picture, where, BLOCK) for picture in (judged, shown)]
     grey = [srgb(picture) @ (0.2126, 0.7152, 0.0722) * where for picture in (judge, other)]
     off = float(np.abs(a - b).mean())
-    return {"difference": off, "share": off / float(a.mean()), "light": float(b.mean() / a.mean()),
+    coarse = float(np.abs(squares[0] - squares[1]).mean() / squares[0].mean()) if squares[0].size else None
+    return {"difference": off, "share": off / float(a.mean()), "blocks": coarse, "light": float(b.mean() / a.mean()),
             "ssim": ssim(*grey, where)}
 
 
@@ -89,7 +100,8 @@ def measured(folder):
             continue
         other, said = np.load(file)[..., :3], json.loads(about.read_text())
         rows.append({"case": folder.name, "engine": engine, "version": said["version"],
-                     "milliseconds": float(np.median(said["times"])), **distance(judge, other, where)})
+                     "milliseconds": float(np.median(said["times"])), "processorMilliseconds": said["processor"],
+                     **distance(judge, other, where)})
         pictures.append(np.where(cover[..., None] > 0, other, 0))
     return rows, np.concatenate([(255 * srgb(picture) + 0.5).astype(np.uint8) for picture in pictures], 1)
 
@@ -103,7 +115,8 @@ def table(rows, judged):
         cells = []
         for engine in engines:
             row = found.get(engine)
-            text = row and f"{100 * row['share']:.1f} %, {row['ssim']:.3f}, {row['milliseconds']:.0f} ms"
+            coarse = row and ("-" if row["blocks"] is None else f"{100 * row['blocks']:.1f}")
+            text = row and f"{100 * row['share']:.1f} / {coarse} %, {row['ssim']:.3f}, {row['processorMilliseconds']:.0f} ms"
             cells.append("-" if row is None else f"**{text}**" if row["share"] == nearest else text)
         lines.append(f"| {case} | " + " | ".join(cells) + f" | {milliseconds / 1000:.0f} s |")
     return lines
@@ -119,8 +132,10 @@ def main(drawn, output):
     if not sheet:
         sys.exit(f"Nothing in {drawn} was drawn by {JUDGE}, which all others are compared with.")
     versions = sorted({f"{row['engine']} {row['version']}" for row in rows})
-    text = ["<!-- readme -->", "Of each: mean absolute difference to Cycles in linear light, as a share of its mean light; "
-            "SSIM; median time of a warm frame. Bold: the nearest.", "", *table(rows, judged), "<!-- /readme -->", "",
+    text = ["<!-- readme -->", "Of each: mean absolute difference to Cycles in linear light, as a share of its mean light, "
+            f"by pixel / by {BLOCK} x {BLOCK} pixels; "
+            "SSIM; processor time of a warm frame, of all cores together. Bold: the nearest.", "",
+            *table(rows, judged), "<!-- /readme -->", "",
             "Versions: " + ", ".join(versions) + "."]
     (output / "environments.md").write_text("\n".join(text) + "\n")
     (output / "environments.json").write_text(json.dumps(rows, indent=1) + "\n")

@@ -44,6 +44,11 @@ class Distances(unittest.TestCase):
         self.assertTrue(found[3, 3] and found[5, 5])
         self.assertFalse(found[2:7, 2].any() or found[2, 2:7].any() or found[4, 4] or found[4, 3] or found[5, 4])
 
+    def test_noise_counts_less_in_means_over_squares_of_pixels(self):
+        grey = np.full(self.noise.shape, 0.5)
+        found = distances.distance(grey, grey + 0.2 * (self.noise - 0.5), self.all)
+        self.assertLess(found["blocks"], found["share"] / 3)
+
     def test_a_highlight_counts_no_more_than_what_is_as_bright_as_seen(self):
         bright = self.noise.copy()
         bright[0, 0] = 1e6

@@ -5,6 +5,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { build as bundle } from 'esbuild';
 import { launchChromium, newPage, serve } from '../browser.mjs';
+import { measured } from '../file_to_picture/measured.mjs';
 import { cameraOf } from './camera.mjs';
 import { drawByCycles } from './cycles.mjs';
 import { drawByGnomon } from './gnomon.mjs';
@@ -66,8 +67,9 @@ async function drawInChromium(browser, script, setup) {
       environment: `/environment/${path.basename(setup.environmentFile)}`, libraries: `${server.origin}${kLibraries}`,
     });
     const pixels = Buffer.from(await page.evaluate(() => window.environments.picture()), 'base64');
-    const times = await page.evaluate((count) => window.environments.times(count), setup.frames);
-    return { ...about, times, pixels };
+    const { value: times, processor } = await measured(
+      () => page.evaluate((count) => window.environments.times(count), setup.frames));
+    return { ...about, times, processor: processor / (setup.frames + 1), pixels };
   } finally {
     await page.close();
     server.close();
@@ -92,12 +94,15 @@ await bundle({
   entryPoints: Object.values(kPages).map((page) => path.join(import.meta.dirname, `${page}.mjs`)),
   outdir: path.join(work, 'bundles'), bundle: true, minify: true, format: 'iife', logLevel: 'error',
 });
+const drawn = setupsOf(JSON.parse(fs.readFileSync(path.join(import.meta.dirname, 'cases.json')))).map((setup) => {
+  const folder = path.join(work, 'drawn', setup.title.replaceAll('/', ' '));
+  fs.mkdirSync(folder, { recursive: true });
+  fs.writeFileSync(path.join(folder, 'setup.json'), JSON.stringify(setup));
+  return { setup, folder };
+});
 const browser = await launchChromium(executable);
 try {
-  for (const setup of setupsOf(JSON.parse(fs.readFileSync(path.join(import.meta.dirname, 'cases.json'))))) {
-    const folder = path.join(work, 'drawn', setup.title.replaceAll('/', ' '));
-    fs.mkdirSync(folder, { recursive: true });
-    fs.writeFileSync(path.join(folder, 'setup.json'), JSON.stringify(setup));
+  for (const { setup, folder } of drawn) {
     for (const device of ['cpu', 'gl']) {
       const engine = `Gnomon, ${device}`;
       await attempt(folder, engine, setup, () => drawByGnomon(path.join(build, 'bin/gnomon'), device, folder, engine, setup));
@@ -105,9 +110,9 @@ try {
     for (const [engine, script] of Object.entries(kPages)) {
       await attempt(folder, engine, setup, () => drawInChromium(browser, script, setup));
     }
-    await attempt(folder, 'Cycles', setup, () => drawByCycles(folder, setup));
     console.error(setup.title);
   }
 } finally {
   await browser.close();
 }
+if (isChosen('Cycles')) drawByCycles(drawn.map(({ folder }) => folder));

@@ -1,6 +1,7 @@
 // Gnomon's own frame, as linear numbers, from a server, so that later frames are warm as the other engines' are.
 import fs from 'node:fs';
 import path from 'node:path';
+import { measured } from '../file_to_picture/measured.mjs';
 import { stop } from '../speed/children.mjs';
 import { startServer } from '../speed/gnomon.mjs';
 
@@ -51,12 +52,15 @@ export async function drawByGnomon(program, device, folder, engine, setup) {
     }));
     fs.writeFileSync(path.join(folder, `${engine}.npy`), await draw(0));
     const times = [];
-    for (let i = 0; i <= setup.frames; ++i) {
-      const begin = performance.now();
-      await draw(i + 1);
-      if (i > 0) times.push(performance.now() - begin);
-    }
-    return { version: JSON.parse(await reply(await fetch(`${origin}/v1/capabilities`))).version, times };
+    const { processor } = await measured(async () => {
+      for (let i = 0; i <= setup.frames; ++i) {
+        const begin = performance.now();
+        await draw(i + 1);
+        if (i > 0) times.push(performance.now() - begin);
+      }
+    });
+    const { version } = JSON.parse(await reply(await fetch(`${origin}/v1/capabilities`)));
+    return { version, times, processor: processor / (setup.frames + 1) };
   } finally {
     await stop(child);
   }

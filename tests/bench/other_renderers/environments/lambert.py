@@ -77,13 +77,6 @@ def cycles(scene, environment, bounces, seed, work):
     return np.load(f"{file}.npy").astype(np.float64)
 
 
-def blocks(picture, where, side=BLOCK):
-    """Means of squares of `side` pixels that lie wholly in `where`, of pictures of whole squares."""
-    height, width = where.shape
-    shape = (height // side, side, width // side, side)
-    return picture.reshape(*shape, 3).mean((1, 3))[where.reshape(shape).all((1, 3))]
-
-
 def relative(judge, other):
     """Mean absolute difference as a share of the mean, and the ratio of all light."""
     return float(np.abs(other - judge).mean() / judge.mean()), float(other.mean() / judge.mean())
@@ -96,7 +89,7 @@ def main(program, environment, work, output):
         write_scene(scene, color)
     uniform = work / "uniform.hdr"
     write_uniform(uniform)
-    from distances import inside, png, srgb
+    from distances import blocks, inside, png, srgb
     first, second = (cycles(scenes[0], environment, 0, seed, work) for seed in (0, 1))
     bounced = cycles(scenes[0], environment, 1, 0, work)[..., :3]
     where = inside(first[..., 3])
@@ -108,7 +101,8 @@ def main(program, environment, work, output):
     rows = []
     for name, a, b in pairs:
         pixels, light = relative(a[where], b[where])
-        rows.append({"picture": name, "pixels": pixels, "blocks": relative(blocks(a, where), blocks(b, where))[0], "light": light})
+        coarse = relative(blocks(a, where, BLOCK), blocks(b, where, BLOCK))[0]
+        rows.append({"picture": name, "pixels": pixels, "blocks": coarse, "light": light})
     text = ["<!-- readme -->", f"Against Cycles without bounces, {SAMPLES} samples, in {environment.stem}:", "",
             "| picture | difference, pixels | difference, 8 x 8 pixels | ratio of all light |", "|---|---|---|---|",
             *(f"| {row['picture']} | {100 * row['pixels']:.2f} % | {100 * row['blocks']:.2f} % | {row['light']:.4f} |"
