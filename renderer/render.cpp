@@ -152,6 +152,10 @@ Baker Renderer::baker() const {
   return Baker(impl_->caches);
 }
 
+std::shared_ptr<EnvironmentCache> Renderer::environments() const {
+  return {impl_->caches, &impl_->caches->environments};
+}
+
 Result<BakeReport> Baker::bake(const ScenePtr& scene, const FrameSpec& spec, const BakeListener& listener) const {
   const auto baked = bakeScene(*caches_, scene, spec, listener);
   if (!baked) return baked.problems();
@@ -190,7 +194,8 @@ EvaluationTools evaluationTools(Renderer& renderer, const ScenePtr& scene) {
             const auto shimmer = renderer.shimmer(scene, spec, path, progress);
             if (!shimmer) return shimmer.problems();
             return shimmer->perThousand();
-          }};
+          },
+          renderer.environments()};
 }
 
 Result<Frame> Renderer::render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles, const GoOn& goOn) {

@@ -55,6 +55,7 @@ struct RendererOptions {
 };
 
 struct FrameCaches;
+class EnvironmentCache;
 
 /// Bakes for the renderer that it came from, also while that draws and after it is gone. Any thread.
 class Baker {
@@ -98,6 +99,9 @@ class Renderer {
 
   /// Makes light maps ahead of the frames that look them up.
   Baker baker() const;
+
+  /// The environments of its frames. Any thread may use it.
+  std::shared_ptr<EnvironmentCache> environments() const;
 
   /// Shimmer of `spec`, its camera replaced by each one of the path in turn (at least two); each frame is surveyed,
   /// planned and cast as for a picture. Where a depth range has a `previous`, each frame takes the one before it for

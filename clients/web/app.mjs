@@ -204,7 +204,9 @@ const panels = {
 for (const section of kSections) {
   const body = section.fields.map((field) => createControl(field, store));
   if (section.panel) body.push(panels[section.panel]);
-  byId('fields').append(element('details', { open: !section.closed }, element('summary', {}, element('h2', {}, section.title)), ...body));
+  const node = element('details', { open: !section.closed }, element('summary', {}, element('h2', {}, section.title)), ...body);
+  if (section.needs) store.subscribe(() => (node.hidden = !section.needs(store)));
+  byId('fields').append(node);
 }
 
 createViewChoice(store, byId('views'));

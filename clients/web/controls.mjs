@@ -49,6 +49,7 @@ function inputOf(field, store, id) {
   if (field.options) return select(field, store, id);
   if (field.vector) return vector(field, store, id);
   if (field.color) return color(field, store, id);
+  if (field.date) return date(field, store, id);
   return number(field, store, id);
 }
 
@@ -102,6 +103,14 @@ function color({ path, choose }, store, id) {
   const set = (value) => (choose ? choose(value, store) : store.setSpec(path, value));
   const node = element('input', { type: 'color', id, oninput: () => set(linearOf(node.value)) });
   return { node, show: (value) => value && (node.value = hexOf(value)) };
+}
+
+function date({ choose }, store, id) {
+  const node = element('input', { type: 'date', id, min: '1900-01-02', max: '2100-12-30', oninput: () => node.validity.valid && node.value && choose(node.value, store) });
+  const show = (value) => {
+    if (document.activeElement !== node) node.value = value;
+  };
+  return { node, show };
 }
 
 // `options(store)`: [[value, text]], the first of them for nothing.

@@ -2,8 +2,9 @@
 // the number beside it takes any value, and the server says what it refuses. `choose` does more than to set the field;
 // `clears` is what goes with it when it is given back, where that is more; `absent` is what its absence means; `whole`
 // gives it a row of its own; `keeps` has no default to go back to; `value(store)` is what is shown where that is not the
-// field itself; `log` makes a slider's steps equal ratios. `panel` is what else a section holds (app.mjs).
+// field itself; `log` makes a slider's steps equal ratios. `panel` is what else a section holds (app.mjs), `needs` whether it is there.
 
+import { kSunHours } from './sun_hours_fields.mjs';
 import { kSurroundings } from './surroundings_fields.mjs';
 import { sourceOf } from './surroundings_math.mjs';
 import { withFile } from './volume_math.mjs';
@@ -101,6 +102,7 @@ const kToneMappings = [
 ];
 
 export const kSections = [
+  kSunHours,
   {
     title: 'Light',
     fields: [
@@ -231,7 +233,7 @@ export const kDataViews = [
   ['albedo', 'Albedo', 'Base color, without light'],
   ['position', 'Position', 'Place in the scene’s bounds, as a color'],
   ['motion', 'Motion', 'How far each point has moved since the last picture: the direction as a hue, white = not at all'],
-  ['sunHours', 'Sun hours', 'Hours of direct sun on the day of a sun by place and time: blue 0, red all daylight'],
+  ['sunHours', 'Sun hours', 'Hours of direct sun on a day, at a place: blue 0, red all daylight'],
   ['atlas', 'Atlas', 'The shadow atlas, depth as grey, each tile named light.tile'],
 ];
 

@@ -1,5 +1,7 @@
 // From the page's state to the FrameSpec that is sent. Pure.
 
+import { sunHoursInForce } from './sun_hours.mjs';
+
 const kMostPixels = 1920 * 1080;
 
 // The size of a picture that has a pixel for each of the screen's, in a place of so many CSS pixels; where these are more
@@ -14,19 +16,8 @@ export function pictureSize(width, height, pixelRatio) {
 export function fullSpec({ spec, view, report }, size) {
   const sized = spec.width && spec.height ? spec : { ...size, ...spec };
   const motion = view === 'motion' && !spec.motionFrom ? { motionFrom: momentOf(report) } : {};
-  const hours = view === 'sunHours' && !spec.sunHours ? dayOf(spec) : {};
+  const hours = view === 'sunHours' ? { sunHours: sunHoursInForce(spec) } : {};
   return { ...sized, ...motion, ...hours, views: [view] };
-}
-
-// The day of the first sun by place and time, from midnight to midnight by its clock; without one the server says what is missing.
-function dayOf({ lights, environment }) {
-  const suns = [...(lights ?? []).map((light) => light.sun), environment?.sky?.sun];
-  const sun = suns.find((each) => each?.time);
-  const [, date, zone] = /^(\d{4}-\d\d-\d\d)T.*?(Z|[+-]\d\d:\d\d)$/i.exec(sun?.time ?? '') ?? [];
-  if (!date) return {};
-  const next = new Date(Date.parse(`${date}T00:00:00Z`) + 86_400_000).toISOString().slice(0, 10);
-  const { time, ...place } = sun;
-  return { sunHours: { ...place, begin: `${date}T00:00:00${zone}`, end: `${next}T00:00:00${zone}` } };
 }
 
 // What the last picture showed.
@@ -43,6 +34,8 @@ const kCoarsest = 0.2; // and from here down, fewer
 // between the two, and has no alpha.
 const kDraftFile = { format: 'webp', webpQuality: 80 };
 
+const kDraftMinutes = 30; // of a step of sun hours
+
 // The same, cheap enough to follow the hand: fewer pixels, no antialiasing, no target to be searched for. Rays are
 // taken last, since they are what exact techniques are for.
 export function draftSpec(state, size, scale) {
@@ -50,6 +43,7 @@ export function draftSpec(state, size, scale) {
   const side = (pixels) => Math.max(16, Math.round((pixels * scale) / 2) * 2);
   const output = { ...full.output, ...kDraftFile };
   const draft = { ...full, width: side(full.width), height: side(full.height), antialiasing: 'none', output };
+  if (draft.sunHours) draft.sunHours = { ...draft.sunHours, stepMinutes: Math.max(kDraftMinutes, draft.sunHours.stepMinutes ?? 0) };
   if (draft.shadow?.raySamples > 4) draft.shadow = { ...draft.shadow, raySamples: 4 };
   if (draft.environment?.shadows === 'rays') draft.environment = { ...draft.environment, samples: 1 };
   if (scale <= kCoarse) draft.atlas = { ...draft.atlas, baseSize: Math.min(512, draft.atlas?.baseSize ?? 512) };

@@ -80,6 +80,14 @@ struct EvaluationRow {
   std::optional<std::vector<VariantProblem>> problems{};
 };
 
+/// The error of a row that makes it better or worse than another.
+enum class RankedError { misclassified, rms };
+
+/// That figure.
+inline double errorOf(const ErrorMetrics& metrics, RankedError by) {
+  return by == RankedError::rms ? metrics.rms : metrics.misclassified;
+}
+
 /// The truth that the rows were held against.
 struct ReferenceReport {
   double milliseconds = 0;
@@ -90,6 +98,7 @@ struct ReferenceReport {
 
 struct EvaluationReport {
   std::vector<EvaluationRow> rows{};
+  RankedError rankedBy = RankedError::misclassified;
   ReferenceReport reference{};
   RendererInfo renderer{};
 };

@@ -25,6 +25,12 @@ inline constexpr std::array kSpellings<Sweep>{
 };
 
 template <>
+inline constexpr std::array kSpellings<RankedError>{
+    spelling<RankedError::misclassified>("the share of misclassified receivers"),
+    spelling<RankedError::rms>("the root mean square of the difference, where the environment's share is measured"),
+};
+
+template <>
 inline constexpr auto kRows<CameraPath> =
     rows("CameraPath", "A path of cameras for measuring shimmer; exactly one of `cameras` and `step`.",
          field<&CameraPath::cameras>("One camera for each frame, used for every variant instead of its own.",
@@ -74,9 +80,8 @@ inline constexpr auto kRows<EvaluationRow> = replyRows(
     field<&EvaluationRow::memoryBytes>("Memory that the frame takes on the device, its scene included.",
                                        {.unit = "bytes"}),
     field<&EvaluationRow::metrics>("Its error; absent if there is a problem."),
-    field<&EvaluationRow::pareto>("True = no other row is faster and misclassifies no more receivers; of an "
-                                  "environment's share, has no more rms. "
-                                  "Absent in an event `row`."),
+    field<&EvaluationRow::pareto>("True = no other row is faster and has no more of the error that rows are "
+                                  "`rankedBy`. Absent in an event `row`."),
     field<&EvaluationRow::problems>("Why it could not be measured; absent if it was."));
 
 template <>
@@ -92,6 +97,7 @@ inline constexpr auto kRows<ReferenceReport> =
 template <>
 inline constexpr auto kRows<EvaluationReport> = replyRows(
     "EvaluationReport", "Speed against error.", field<&EvaluationReport::rows>("One for each variant, in their order."),
+    field<&EvaluationReport::rankedBy>("The metric that is a row's error."),
     field<&EvaluationReport::reference>("The exact shadows that the rows were compared with."),
     field<&EvaluationReport::renderer>("The graphics context that drew the frames: times are those of this machine."));
 

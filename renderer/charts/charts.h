@@ -13,9 +13,9 @@ struct ChartTime {
   std::string unit = " ms"; ///< written behind each number
 };
 
-/// Speed against error as an SVG file: misclassified share (logarithmic; 0 on a floor of its own) over milliseconds
-/// (logarithmic). Rows on the Pareto front are joined by steps; each point's number leads to its name beside the chart.
-/// Rows without figures follow the others, with the reason.
+/// Speed against error as an SVG file: the error that rows are ranked by (logarithmic; 0 on a floor of its own) over
+/// milliseconds (logarithmic). Rows on the Pareto front are joined by steps; each point's number leads to its name
+/// beside the chart. Rows without figures follow the others, with the reason.
 std::string evaluationChart(const EvaluationReport& report, const ChartTime& time = {});
 
 /// A report's rows as CSV (RFC 4180) with a line of names: name, problem, milliseconds, a column for each stage that

@@ -34,12 +34,21 @@ std::string percent(double share) {
   return shortNumber(100 * share) + " %";
 }
 
-std::string grid(const LogAxis& x, const ErrorAxis& y, double height, const ChartTime& time) {
+const char* axisName(RankedError by) {
+  return by == RankedError::rms ? "rms of the share of light" : "misclassified receivers";
+}
+
+/// Shares of receivers in percent, differences as they are.
+std::string errorText(double error, RankedError by) {
+  return by == RankedError::rms ? shortNumber(error) : percent(error);
+}
+
+std::string grid(const LogAxis& x, const ErrorAxis& y, double height, const ChartTime& time, RankedError by) {
   const double right = kPlotWidth - 16, bottom = height - kBottom;
   std::string out = text(kLeft, 24, "start", "Speed against error", " class=\"title\"");
   for (const double mark : y.marks()) {
     out += line("grid", kLeft, y.at(mark), right, y.at(mark));
-    out += text(kLeft - 8, y.at(mark) + 4, "end", percent(mark));
+    out += text(kLeft - 8, y.at(mark) + 4, "end", errorText(mark, by));
   }
   out += line("axis", kLeft, y.floor(), right, y.floor()) + text(kLeft - 8, y.floor() + 4, "end", "none");
   for (const double mark : x.marks()) {
@@ -48,8 +57,7 @@ std::string grid(const LogAxis& x, const ErrorAxis& y, double height, const Char
   }
   const double middle = (kTop + bottom) / 2;
   out += text((kLeft + right) / 2, height - 14, "middle", time.axis);
-  return out +
-         text(18, middle, "middle", "misclassified receivers", " transform=\"rotate(-90 18 " + number(middle) + ")\"");
+  return out + text(18, middle, "middle", axisName(by), " transform=\"rotate(-90 18 " + number(middle) + ")\"");
 }
 
 /// From each row of the front to the next slower one: as wrong as before until there.
@@ -89,8 +97,8 @@ std::string pointsOf(const EvaluationReport& report, const std::vector<Point>& p
     const EvaluationRow& row = report.rows[point.row];
     circles += "<circle cx=\"" + number(point.x) + "\" cy=\"" + number(point.y) + "\" r=\"" + number(kRadius) + "\" " +
                (point.front ? colored("fill", 0) : "class=\"fillRest\"") + "><title>" + escaped(row.name) + ": " +
-               number(*row.milliseconds) + time.unit + ", " + percent(row.metrics->misclassified) +
-               "</title></circle>\n";
+               number(*row.milliseconds) + time.unit + ", " +
+               errorText(errorOf(*row.metrics, report.rankedBy), report.rankedBy) + "</title></circle>\n";
   }
   for (const Point& point : points) {
     const std::string words = std::to_string(point.row + 1);
@@ -113,7 +121,7 @@ std::string legendOf(const EvaluationReport& report, const ChartTime& time) {
     out += text(left + 28, y, "start", shortened(row.name, measured ? 28 : 20), front ? " class=\"bold\"" : "");
     if (measured) {
       out += text(right - 84, y, "end", shortNumber(*row.milliseconds) + time.unit);
-      out += text(right, y, "end", percent(row.metrics->misclassified));
+      out += text(right, y, "end", errorText(errorOf(*row.metrics, report.rankedBy), report.rankedBy));
     } else if (row.problems && !row.problems->empty()) {
       out += text(right, y, "end", shortened(row.problems->front().detail, 36), " class=\"small\"");
     }
@@ -130,7 +138,7 @@ std::string evaluationChart(const EvaluationReport& report, const ChartTime& tim
   for (const EvaluationRow& row : report.rows) {
     if (!row.milliseconds || !row.metrics) continue;
     times.push_back(*row.milliseconds);
-    errors.push_back(row.metrics->misclassified);
+    errors.push_back(errorOf(*row.metrics, report.rankedBy));
   }
   const LogAxis x(times, kLeft + 24, kPlotWidth - 40);
   const ErrorAxis y(errors, height - kBottom - 28, kTop + 16, height - kBottom);
@@ -138,13 +146,14 @@ std::string evaluationChart(const EvaluationReport& report, const ChartTime& tim
   for (std::size_t i = 0; i < report.rows.size(); ++i) {
     const EvaluationRow& row = report.rows[i];
     if (!row.milliseconds || !row.metrics) continue;
-    points.push_back({i, x.at(*row.milliseconds), y.at(row.metrics->misclassified), row.pareto.value_or(false)});
+    const double error = errorOf(*row.metrics, report.rankedBy);
+    points.push_back({i, x.at(*row.milliseconds), y.at(error), row.pareto.value_or(false)});
   }
   std::vector<Point> front;
   std::copy_if(points.begin(), points.end(), std::back_inserter(front), [](const Point& point) { return point.front; });
-  return document(
-      kPlotWidth + kLegendWidth, height,
-      grid(x, y, height, time) + frontLine(front) + pointsOf(report, points, time) + legendOf(report, time));
+  return document(kPlotWidth + kLegendWidth, height,
+                  grid(x, y, height, time, report.rankedBy) + frontLine(front) + pointsOf(report, points, time) +
+                      legendOf(report, time));
 }
 
 } // namespace gnomon

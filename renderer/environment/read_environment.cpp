@@ -12,14 +12,12 @@ Result<EnvironmentMap> readExr(std::span<const std::uint8_t> file) {
   const auto size = exrColorSize(file);
   if (!size) return size.problems();
   if (const Status fits = checkEnvironmentSize({size->width, size->height}); !fits) return fits.problems();
-  const auto image = decodeExrColor(file, kLimits.maxEnvironmentWidth);
-  if (!image) return image.problems();
-  const auto* numbers = pixelsAs<float>(*image);
-  EnvironmentMap map{image->width, image->height, {}};
-  map.texels.reserve(numbers->size() / 3);
-  for (std::size_t at = 0; at < numbers->size(); at += 3) {
-    map.texels.emplace_back((*numbers)[at], (*numbers)[at + 1], (*numbers)[at + 2]);
-  }
+  EnvironmentMap map{size->width, size->height, {}};
+  const Status read = decodeExrColor(file, kLimits.maxEnvironmentWidth, [&](const ImageSize& own) {
+    map.texels.resize(static_cast<std::size_t>(own.width) * static_cast<std::size_t>(own.height));
+    return std::span(&map.texels.front().x, 3 * map.texels.size());
+  });
+  if (!read) return read.problems();
   return map;
 }
 

@@ -17,8 +17,8 @@ std::optional<glm::ivec2> environmentSize(std::span<const std::uint8_t> file);
 
 /// Reads it, whatever the bytes are. Of an EXR: channels R, G and B, or Y, of its first layer that has them. Problems
 /// have no pointer: the file is damaged or of a kind that is not read, has sides that an environment may not have
-/// (environment_checks.h), or numbers that light can't have. Takes twice
-/// what the map takes.
+/// (environment_checks.h), or numbers that light can't have. Takes
+/// little more than the map.
 Result<EnvironmentMap> readEnvironment(std::span<const std::uint8_t> file);
 
 } // namespace gnomon

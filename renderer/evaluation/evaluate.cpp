@@ -45,7 +45,10 @@ class Run {
  public:
   Run(const ScenePtr& scene, const Evaluation& evaluation, const RendererInfo& renderer, const EvaluationTools& tools,
       const EvaluationListener& listener)
-      : evaluation_(evaluation), tools_(tools), listener_(listener), truth_(scene, evaluation.referenceSamples) {
+      : evaluation_(evaluation),
+        tools_(tools),
+        listener_(listener),
+        truth_(scene, evaluation.referenceSamples, tools.environments) {
     for (std::size_t i = 0; i < evaluation.variants.size(); ++i) {
       const Variant& variant = evaluation.variants[i];
       EvaluationRow& row = rows_.emplace_back();
@@ -74,8 +77,9 @@ class Run {
     }
     if (const Status done = time(steps); !done) return done.problems();
     const bool shares = std::any_of(subjects_.begin(), subjects_.end(), measuresEnvironment);
-    markPareto(rows_, shares ? &ErrorMetrics::rms : &ErrorMetrics::misclassified);
-    return EvaluationReport{std::move(rows_), truth_.report(), renderer};
+    const RankedError rankedBy = shares ? RankedError::rms : RankedError::misclassified;
+    markPareto(rows_, rankedBy);
+    return EvaluationReport{std::move(rows_), rankedBy, truth_.report(), renderer};
   }
 
  private:
@@ -156,18 +160,18 @@ bool measured(const EvaluationRow& row) {
   return row.milliseconds && row.metrics;
 }
 
-bool beats(const EvaluationRow& a, const EvaluationRow& b, double ErrorMetrics::*error) {
+bool beats(const EvaluationRow& a, const EvaluationRow& b, RankedError by) {
   const double timeA = *a.milliseconds, timeB = *b.milliseconds;
-  const double errorA = (*a.metrics).*error, errorB = (*b.metrics).*error;
+  const double errorA = errorOf(*a.metrics, by), errorB = errorOf(*b.metrics, by);
   return timeA <= timeB && errorA <= errorB && (timeA < timeB || errorA < errorB);
 }
 
 } // namespace
 
-void markPareto(std::vector<EvaluationRow>& rows, double ErrorMetrics::*error) {
+void markPareto(std::vector<EvaluationRow>& rows, RankedError by) {
   for (EvaluationRow& row : rows) {
     row.pareto = measured(row) && std::none_of(rows.begin(), rows.end(), [&](const EvaluationRow& other) {
-                   return measured(other) && beats(other, row, error);
+                   return measured(other) && beats(other, row, by);
                  });
   }
 }

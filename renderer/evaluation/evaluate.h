@@ -13,6 +13,8 @@
 /// Speed against error, over whatever draws frames. Part of the door: see render.h.
 namespace gnomon {
 
+class EnvironmentCache;
+
 /// How a frame's shadows hold still on surfaces along a path of cameras.
 struct Shimmer {
   std::size_t points = 0;  ///< watched: world-fixed, of surfaces; counted for every light they face whose shadow shows
@@ -36,7 +38,8 @@ using MeasureShimmer =
 /// What an evaluation has done for it.
 struct EvaluationTools {
   DrawFrame draw;
-  MeasureShimmer shimmer; ///< needed where the evaluation has a path
+  MeasureShimmer shimmer{};                         ///< needed where the evaluation has a path
+  std::shared_ptr<EnvironmentCache> environments{}; ///< of whatever draws; needed where an environment's share is asked
 };
 
 /// Callbacks for the progress of an evaluation; may be empty.
@@ -61,6 +64,6 @@ Result<EvaluationReport> evaluate(const std::shared_ptr<const Scene>& scene, con
 
 /// Says of every row whether it is on the front of speed against error: nothing that was measured is faster and has
 /// no more of that error, or has less and is no slower. Rows without figures are not.
-void markPareto(std::vector<EvaluationRow>& rows, double ErrorMetrics::*error = &ErrorMetrics::misclassified);
+void markPareto(std::vector<EvaluationRow>& rows, RankedError by = RankedError::misclassified);
 
 } // namespace gnomon

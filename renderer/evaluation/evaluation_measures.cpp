@@ -151,7 +151,7 @@ Result<Reference> Truth::traced(const Subject& subject, const TraceInput& input,
   if (!measuresEnvironment(subject)) return traceReference(input, subject.lights, samples_, progress);
   const int samples = std::max(samples_, kEnvironmentReferenceSamples);
   report_.samples = std::max(report_.samples, samples);
-  const auto environment = environmentOf(environments_, *scene_, subject.frame.spec.environment);
+  const auto environment = environmentOf(*environments_, *scene_, subject.frame.spec.environment);
   if (!environment) return environment.problems();
   return traceReference(input, skyLightOf(&*environment), samples, progress);
 }

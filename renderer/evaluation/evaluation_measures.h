@@ -70,7 +70,9 @@ std::vector<std::vector<std::size_t>> shareReferences(const std::vector<Subject>
 /// Traces the truth about subjects of one scene.
 class Truth {
  public:
-  Truth(std::shared_ptr<const Scene> scene, int samples) : scene_(std::move(scene)), samples_(samples) {
+  /// `environments`: needed where the share of one is asked for.
+  Truth(std::shared_ptr<const Scene> scene, int samples, std::shared_ptr<EnvironmentCache> environments)
+      : scene_(std::move(scene)), samples_(samples), environments_(std::move(environments)) {
     report_.samples = samples;
   }
 
@@ -87,7 +89,7 @@ class Truth {
 
   std::shared_ptr<const Scene> scene_;
   int samples_;
-  EnvironmentCache environments_;
+  std::shared_ptr<EnvironmentCache> environments_;
   std::optional<TracedScene> traced_; ///< the last one
   int tracedIndex_ = 0;               ///< of its glTF scene
   ReferenceReport report_;

@@ -17,27 +17,14 @@
 namespace gnomon {
 namespace {
 
-/// Changes with all that the light's shadow depends on. Empty where the scene has no id.
-std::string keyInStore(const Scene& scene, const ResolvedFrame& frame, int light) {
-  const std::string& id = scene.summary.id;
-  if (id.empty()) return {};
-  FrameSpec spec = frame.spec;
-  spec.lights = std::vector{shadowOf((*frame.spec.lights)[static_cast<std::size_t>(light)])};
-  spec.shadow = Shadow{};
-  spec.environment = {}; // its sun is that light, if it is
-  return id + "-" + bakeKey(id, spec);
-}
-
-/// Changes with all that the share of its light depends on. Empty where the scene has no id.
-std::string keyInStore(const Scene& scene, const FrameSpec& effective, const BakedEnvironment& environment) {
+/// Changes with all that the shadow depends on. Empty where the scene has no id.
+std::string keyInStore(const Scene& scene, const FrameSpec& effective, const ShadowSource& source) {
   const std::string& id = scene.summary.id;
   if (id.empty()) return {};
   FrameSpec spec = effective;
-  spec.lights.emplace();
+  spec.lights = std::vector{source.light};
+  spec.environment = source.environment.value_or(EnvironmentOptions{});
   spec.shadow = Shadow{};
-  spec.shadow.lightMap = environment.map;
-  spec.shadow.lightMap.samples = Shadow{}.lightMap.samples; // of lights
-  spec.environment = shadowOf(environment.options);
   spec.ambient = {};
   return id + "-" + bakeKey(id, spec);
 }
@@ -58,7 +45,7 @@ Status bakeSurroundings(FrameCaches& caches, SettledFrame& settled, const FrameS
   const BakedEnvironment environment{sky, frame.spec.environment,
                                      alone ? frame.spec.shadow.lightMap : (*frame.spec.lights)[first].shadow->lightMap};
   const std::string key =
-      caches.lightMaps.hasStore() ? keyInStore(*settled.loaded, frame.spec, environment) : std::string();
+      caches.lightMaps.hasStore() ? keyInStore(*settled.loaded, frame.spec, sourceOf(environment)) : std::string();
   auto found = caches.lightMaps.get({settled.scene, frame.scene, **rays, *frame.spec.lights, frame.nodes, key},
                                     environment, progress);
   if (!found) {
@@ -81,7 +68,8 @@ Result<std::vector<LightMapCache::Found>> bakedLights(LightMapCache& maps, Trace
     const auto rays = traced.get(settled.scene, frame.scene);
     if (!rays) return rays.problems();
     const Progress ofLight = progress ? Progress([&](double share) { return progress(light, share); }) : Progress();
-    const std::string key = maps.hasStore() ? keyInStore(*settled.loaded, frame, light) : std::string();
+    const ShadowSource source = sourceOf((*frame.spec.lights)[static_cast<std::size_t>(light)]);
+    const std::string key = maps.hasStore() ? keyInStore(*settled.loaded, frame.spec, source) : std::string();
     auto made = maps.get({settled.scene, frame.scene, **rays, *frame.spec.lights, frame.nodes, key}, light, ofLight);
     if (!made) {
       if (made.problems().front().code == ProblemCode::unavailable) return made.problems();

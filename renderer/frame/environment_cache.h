@@ -28,23 +28,24 @@ class EnvironmentCache {
   std::shared_ptr<const Environment> get(const Sky& sky);
 
  private:
-  struct SkyEntry {
-    Sky sky;
-    std::shared_ptr<const Environment> environment;
+  /// What it is made from: a file, or else a sky.
+  struct Source {
+    std::weak_ptr<const EnvironmentFile> file{};
+    bool withSun = false; ///< in the picture
+    std::optional<Sky> sky{};
   };
   struct Entry {
-    std::weak_ptr<const EnvironmentFile> file;
-    bool withSun; ///< in the picture
+    Source source;
     std::shared_ptr<const Environment> environment;
   };
 
-  std::shared_ptr<const Environment> kept(const std::shared_ptr<const EnvironmentFile>& file, bool withSun);
-  std::shared_ptr<const Environment> kept(const Sky& sky);
+  std::shared_ptr<const Environment> kept(const Source& source);
+  std::shared_ptr<const Environment> lookUp(const Source& source);
+  std::shared_ptr<const Environment> keep(const Source& source, Environment made);
 
   std::size_t budgetBytes_;
   std::mutex mutex_;
   LruList<Entry> entries_;
-  LruList<SkyEntry> skies_;
 };
 
 } // namespace gnomon

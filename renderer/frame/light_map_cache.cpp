@@ -14,7 +14,7 @@
 
 namespace gnomon {
 
-Light shadowOf(const Light& light) {
+ShadowSource sourceOf(const Light& light) {
   Light shadow = light;
   const Light plain;
   shadow.range = plain.range; // what lies beyond it is not lit, whatever the map holds
@@ -28,15 +28,18 @@ Light shadowOf(const Light& light) {
   kept.blendedCasters = light.shadow->blendedCasters;
   kept.terminator = Terminator::flat; // whichever side of a triangle a map serves
   shadow.shadow = kept;
-  return shadow;
+  return {shadow};
 }
 
-EnvironmentOptions shadowOf(const EnvironmentOptions& environment) {
-  EnvironmentOptions shadow = environment;
+ShadowSource sourceOf(const BakedEnvironment& environment) {
+  EnvironmentOptions shadow = environment.options;
   const EnvironmentOptions plain;
   shadow.intensity = plain.intensity;
   shadow.background = plain.background;
-  return shadow;
+  Shadow kept;
+  kept.lightMap = environment.map;
+  kept.lightMap.samples = LightMapOptions{}.samples; // of lights
+  return {Light{.shadow = kept}, shadow};
 }
 
 namespace {
@@ -96,13 +99,13 @@ class LightMapCache::Claim {
   std::list<Key>::iterator mine_;
 };
 
-bool LightMapCache::isOf(const Key& key, const BakeInput& input, const Source& source) {
+bool LightMapCache::isOf(const Key& key, const BakeInput& input, const ShadowSource& source) {
   return key.index == input.index && key.source == source && key.scene.lock() == input.scene &&
          std::equal(key.nodes.begin(), key.nodes.end(), input.nodes.begin(), input.nodes.end());
 }
 
 /// With the mutex held.
-std::shared_ptr<const BakedLight> LightMapCache::kept(const BakeInput& input, const Source& source) {
+std::shared_ptr<const BakedLight> LightMapCache::kept(const BakeInput& input, const ShadowSource& source) {
   const Entry* const found = entries_.findIf([&](const Entry& entry) { return isOf(entry.key, input, source); });
   return found ? found->baked : nullptr;
 }
@@ -118,7 +121,7 @@ std::shared_ptr<const LightMapLayout> LightMapCache::keptLayout(const BakeInput&
   return found == entries_.end() ? nullptr : found->baked->layout;
 }
 
-Result<LightMapCache::Found> LightMapCache::make(const BakeInput& input, const Source& source, const Bake& bake,
+Result<LightMapCache::Found> LightMapCache::make(const BakeInput& input, const ShadowSource& source, const Bake& bake,
                                                  const Progress& progress) {
   const LightMapOptions& options = source.light.shadow->lightMap;
   const auto start = std::chrono::steady_clock::now();
@@ -148,7 +151,7 @@ Result<LightMapCache::Found> LightMapCache::make(const BakeInput& input, const S
 }
 
 Result<LightMapCache::Found> LightMapCache::get(const BakeInput& input, int index, const Progress& progress) {
-  const Source source{shadowOf(input.lights[static_cast<std::size_t>(index)])};
+  const ShadowSource source = sourceOf(input.lights[static_cast<std::size_t>(index)]);
   const auto bake = [&](const CameraView& camera, const LightMapLayout& layout) {
     // Towards a light without an end: its cone and range decide where it shines, and not what its shadow is.
     std::vector<Light> lights(input.lights.begin(), input.lights.end());
@@ -166,11 +169,6 @@ Result<LightMapCache::Found> LightMapCache::get(const BakeInput& input, int inde
 
 Result<LightMapCache::Found> LightMapCache::get(const BakeInput& input, const BakedEnvironment& environment,
                                                 const Progress& progress) {
-  Source source{{}, shadowOf(environment.options)};
-  source.light.shadow = Shadow{};
-  LightMapOptions& map = source.light.shadow->lightMap;
-  map = environment.map;
-  map.samples = LightMapOptions{}.samples; // of lights
   const auto bake = [&](const CameraView& camera, const LightMapLayout& layout) {
     const TraceInput rays{input.traced, camera, 1, 1, {}, input.nodes};
     std::optional<std::vector<LightMap>> maps;
@@ -178,10 +176,10 @@ Result<LightMapCache::Found> LightMapCache::get(const BakeInput& input, const Ba
     if (baked) maps.emplace(std::make_move_iterator(baked->begin()), std::make_move_iterator(baked->end()));
     return maps;
   };
-  return get(input, source, bake, progress);
+  return get(input, sourceOf(environment), bake, progress);
 }
 
-Result<LightMapCache::Found> LightMapCache::get(const BakeInput& input, const Source& source, const Bake& bake,
+Result<LightMapCache::Found> LightMapCache::get(const BakeInput& input, const ShadowSource& source, const Bake& bake,
                                                 const Progress& progress) {
   constexpr std::chrono::milliseconds kAskAgain{20};
   const Key key{input.scene, input.index, source, {input.nodes.begin(), input.nodes.end()}};

@@ -18,12 +18,6 @@
 
 namespace gnomon {
 
-/// The light without what its shadow does not depend on: two lights that are the same then share a map.
-Light shadowOf(const Light& light);
-
-/// The same of an environment: those that are the same share a map.
-EnvironmentOptions shadowOf(const EnvironmentOptions& environment);
-
 /// What a bake takes place on.
 struct BakeInput {
   std::shared_ptr<const Scene> scene; ///< posed
@@ -41,9 +35,21 @@ struct BakedEnvironment {
   const LightMapOptions& map;        ///< how fine it is
 };
 
+/// What a baked shadow depends on besides the scene and its nodes, the rest left at its defaults: two that are the same
+/// share a map.
+struct ShadowSource {
+  Light light; ///< of an environment: one that has but the options of its map
+  std::optional<EnvironmentOptions> environment{};
+
+  bool operator==(const ShadowSource&) const = default;
+};
+
+ShadowSource sourceOf(const Light& light);
+ShadowSource sourceOf(const BakedEnvironment& environment);
+
 /// Light maps of earlier frames and bakes, the least recently used dropped first once they take more than a budget, and
 /// those of scenes that are in use nowhere else. A map serves as long as all that its shadow depends on is the same
-/// (shadowOf). Any thread; one that asks for a map waits while another thread makes that map.
+/// (ShadowSource). Any thread; one that asks for a map waits while another thread makes that map.
 class LightMapCache {
  public:
   /// `store`: also keeps what is baked, and is asked before anything is; may be nullptr.
@@ -66,17 +72,10 @@ class LightMapCache {
   Result<Found> get(const BakeInput& input, const BakedEnvironment& environment, const Progress& progress = {});
 
  private:
-  /// What a shadow depends on; the rest has its defaults.
-  struct Source {
-    Light light; ///< of an environment: one that has but the options of its map
-    std::optional<EnvironmentOptions> environment{};
-
-    bool operator==(const Source&) const = default;
-  };
   struct Key {
     std::weak_ptr<const Scene> scene;
     int index = 0;
-    Source source;
+    ShadowSource source;
     std::vector<NodeSwitches> nodes;
   };
   struct Entry {
@@ -89,11 +88,11 @@ class LightMapCache {
   /// Bakes as seen from a camera that sees all of the scene; nothing where it was stopped.
   using Bake = std::function<std::optional<std::vector<LightMap>>(const CameraView&, const LightMapLayout&)>;
 
-  static bool isOf(const Key& key, const BakeInput& input, const Source& source);
-  std::shared_ptr<const BakedLight> kept(const BakeInput& input, const Source& source);
+  static bool isOf(const Key& key, const BakeInput& input, const ShadowSource& source);
+  std::shared_ptr<const BakedLight> kept(const BakeInput& input, const ShadowSource& source);
   std::shared_ptr<const LightMapLayout> keptLayout(const BakeInput& input, const LightMapOptions& options);
-  Result<Found> get(const BakeInput& input, const Source& source, const Bake& bake, const Progress& progress);
-  Result<Found> make(const BakeInput& input, const Source& source, const Bake& bake, const Progress& progress);
+  Result<Found> get(const BakeInput& input, const ShadowSource& source, const Bake& bake, const Progress& progress);
+  Result<Found> make(const BakeInput& input, const ShadowSource& source, const Bake& bake, const Progress& progress);
   void drop();
 
   std::size_t budgetBytes_;

@@ -191,9 +191,11 @@ Result<ColorPart> colorPart(const Imf::MultiPartInputFile& file, int maxSide) {
   return exrProblem(ProblemCode::unsupportedFeature, "The EXR has no layer with colors.", "channels R, G and B, or Y");
 }
 
-Image readColors(Imf::MultiPartInputFile& file, const ColorPart& colors) {
-  Image image{static_cast<int>(colors.size[0]), static_cast<int>(colors.size[1]), {"R", "G", "B"}, {}};
-  std::vector<float> pixels(static_cast<std::size_t>(colors.size[0] * colors.size[1]) * 3);
+ImageSize sizeOf(const ColorPart& colors) {
+  return {static_cast<int>(colors.size[0]), static_cast<int>(colors.size[1])};
+}
+
+void readColors(Imf::MultiPartInputFile& file, const ColorPart& colors, std::span<float> pixels) {
   Imf::InputPart part(file, colors.part);
   const Imath::Box2i& window = part.header().dataWindow();
   const bool grey = colors.channels[0] == colors.channels[1];
@@ -206,8 +208,6 @@ Image readColors(Imf::MultiPartInputFile& file, const ColorPart& colors) {
   part.setFrameBuffer(target);
   part.readPixels(window.min.y, window.max.y);
   for (std::size_t i = 0; grey && i < pixels.size(); i += 3) pixels[i + 1] = pixels[i + 2] = pixels[i];
-  image.pixels = std::move(pixels);
-  return image;
 }
 
 /// What `read` makes of the file; a problem instead of what OpenEXR throws.
@@ -240,15 +240,16 @@ Result<ImageSize> exrColorSize(std::span<const std::uint8_t> file) {
   return readExrFile(file, [](const Imf::MultiPartInputFile& parts) -> Result<ImageSize> {
     const auto colors = colorPart(parts, std::numeric_limits<int>::max());
     if (!colors) return colors.problems();
-    return ImageSize{static_cast<int>(colors->size[0]), static_cast<int>(colors->size[1])};
+    return sizeOf(*colors);
   });
 }
 
-Result<Image> decodeExrColor(std::span<const std::uint8_t> file, int maxSide) {
-  return readExrFile(file, [&](Imf::MultiPartInputFile& parts) -> Result<Image> {
+Status decodeExrColor(std::span<const std::uint8_t> file, int maxSide, const RoomForColors& roomFor) {
+  return readExrFile(file, [&](Imf::MultiPartInputFile& parts) -> Status {
     const auto colors = colorPart(parts, maxSide);
     if (!colors) return colors.problems();
-    return readColors(parts, *colors);
+    readColors(parts, *colors, roomFor(sizeOf(*colors)));
+    return Done{};
   });
 }
 

@@ -75,8 +75,11 @@ Result<std::vector<ExrLayer>> decodeExr(std::span<const std::uint8_t> file, int 
 /// The size of the part that decodeExrColor reads, from the file's header alone.
 Result<ImageSize> exrColorSize(std::span<const std::uint8_t> file);
 
+/// Where the floats of a picture of this size go: three a pixel, row by row.
+using RoomForColors = std::function<std::span<float>(const ImageSize&)>;
+
 /// Channels R, G and B as floats, or Y three times, of the first layer that has them, without its alpha; other channels
-/// are not read. Problems: as of decodeExr, and where no layer has colors.
-Result<Image> decodeExrColor(std::span<const std::uint8_t> file, int maxSide);
+/// are not read. Asks for room once. Problems: as of decodeExr, and where no layer has colors.
+Status decodeExrColor(std::span<const std::uint8_t> file, int maxSide, const RoomForColors& roomFor);
 
 } // namespace gnomon

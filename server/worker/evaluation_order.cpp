@@ -110,7 +110,8 @@ Result<EvaluationReport> evaluateScene(WorkContext& context, const LoadedScene& 
                               },
                               [&](const FrameSpec& spec, std::span<const Camera> path, const Progress&) {
                                 return context.renderer.shimmer(scene.scene, spec, path, call.goOn);
-                              }};
+                              },
+                              context.renderer.environments()};
   auto report = evaluate(scene.scene, evaluation, context.renderer.info(), tools, watched);
   if (!report && !call.goOn()) return stoppedProblem("the evaluation", call);
   return report;

@@ -120,16 +120,24 @@ std::size_t volumeBytes(const FrameSpec& spec, const SceneSummary& scene, std::s
          samples * kSample + pixelsIn(spec) * kPixel;
 }
 
-/// Of the environment: its map, what is read on the way to it, and what is prepared for shading.
+/// Of the environment: its map, what is prepared for shading, and what it is prepared from.
 std::size_t environmentBytes(const FrameSpec& spec, const SceneSummary& scene) {
-  constexpr std::size_t kPrepared = 16u << 20; ///< whatever the map's size; a sky is no larger
-  constexpr std::size_t kMaps = 4;             ///< as read, kept, and as cells in which light is summed
+  constexpr std::size_t kPrepared = 21u << 20; ///< whatever the map's size
+  constexpr std::size_t kSky = 10u << 20;      ///< its map, as cells in which light is summed, too
+  constexpr std::size_t kCells = 38u << 20;    ///< of the largest map that is summed, and that map
   constexpr std::size_t kTexel = 3 * sizeof(float);
   constexpr std::size_t kWidth = kLimits.maxEnvironmentWidth;
-  if (spec.environment.sky) return kPrepared;
+  if (spec.environment.sky) return kPrepared + kSky;
   if (!spec.environment.file) return 0;
   const auto map = std::min(static_cast<std::size_t>(scene.memory.environments), kWidth * kWidth / 2 * kTexel);
-  return kPrepared + kMaps * map;
+  return kPrepared + kCells + map;
+}
+
+/// Of what the scene hides of it: sums and shares of every pixel, and a share of every sample.
+std::size_t skyShadowBytes(const FrameSpec& spec, std::size_t samples) {
+  constexpr std::size_t kPixel = 27;
+  constexpr std::size_t kSample = 8;
+  return spec.environment.shadows == EnvironmentShadows::rays ? pixelsIn(spec) * kPixel + samples * kSample : 0;
 }
 
 } // namespace
@@ -159,7 +167,8 @@ std::size_t frameBytes(const FrameSpec& spec, const SceneSummary& scene, DeviceK
     largest = std::max(largest, bytes);
   }
   std::size_t drawn = samples * own.sample + pixels * own.picturePixel + shadowBytes(spec, lights, samples, own) +
-                      volumeBytes(spec, scene, lights.size(), samples) + environmentBytes(spec, scene);
+                      volumeBytes(spec, scene, lights.size(), samples) + environmentBytes(spec, scene) +
+                      skyShadowBytes(spec, samples);
   if (showsAny(spec, ViewSource::rays)) drawn += pixels * kReferenceBytes;
   if (showsAny(spec, ViewSource::geometry)) drawn += pixels * kTriangle;
   if (std::ranges::find(spec.views, View::casterIds) != spec.views.end()) drawn += pixels * kCaster;

@@ -156,6 +156,7 @@ Result<std::unique_ptr<RenderThread>> RenderThread::start(const RendererOptions&
       thread->renderer_ = *std::move(renderer);
       thread->info_ = thread->renderer_->info();
       thread->baker_ = thread->renderer_->baker();
+      thread->environments_ = thread->renderer_->environments();
       return drawFirstFrame(*thread->renderer_);
     });
     if (!started) return started.problems();

@@ -36,6 +36,9 @@ class RenderThread {
   /// Bakes for the frames of this thread, without waiting for it.
   const Baker& baker() const { return *baker_; }
 
+  /// Of the frames of this thread; any other may use it.
+  const std::shared_ptr<EnvironmentCache>& environments() const { return environments_; }
+
   /// Renderer::render; a problem of code unavailable where it was asked to stop before or while it drew. Throws what
   /// that throws: std::bad_alloc where the worker may use no more memory.
   Result<DrawnFrame> render(const ScenePtr& scene, const FrameSpec& spec, TileUse tiles, const GoOn& goOn);
@@ -72,6 +75,7 @@ class RenderThread {
   std::optional<Renderer> renderer_; ///< touched on the thread only
   RendererInfo info_;
   std::optional<Baker> baker_;
+  std::shared_ptr<EnvironmentCache> environments_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::shared_ptr<Turn>> waiting_;

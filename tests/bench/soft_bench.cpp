@@ -76,7 +76,7 @@ class SoftBench {
     evaluation.referenceSamples = samples_;
     evaluation.spec = specOf(light.soft, {});
     for (const Way& way : ways_) evaluation.variants.push_back({{}, way.name, specOf(light.soft, way.shadow)});
-    const EvaluationTools tools{[&](const FrameSpec& spec) { return draw(scene, spec); }, {}};
+    const EvaluationTools tools{[&](const FrameSpec& spec) { return draw(scene, spec); }};
     const auto report = evaluate(scene.scene, evaluation, renderer_.info(), tools);
     if (!report) return;
     for (std::size_t i = 0; i < ways_.size(); ++i) {

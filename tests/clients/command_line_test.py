@@ -29,6 +29,7 @@ class Usage(CommandLine):
             ["render", BOX],
             ["render", BOX, "-o", "a.gif"],
             ["render", BOX, "-o", "a.png", "--sun", "135"],
+            ["render", BOX, "-o", "a.png", "--sun-hours", "48.1,11.6"],
             ["render", BOX, "-o", "a.png", "--size", "64"],
             ["render", BOX, "-o", "a.png", "--size", "64x48", "--width", "3"],
             ["render", BOX, "-o", "a.png", "--set", "width"],

@@ -34,6 +34,23 @@ class Render(CommandLine):
             run = gnomon("render", BOX, "-o", str(self.output), "--sun", text)
             self.assert_ends(run, PROBLEM, said)
 
+    def test_hours_of_sun_are_of_a_place_and_a_day(self):
+        report = self.folder / "report.json"
+        self.render("--sun-hours", "48.1,11.6 2026-06-21", "--report", str(report))
+        shown = self.output.read_bytes()
+        found = json.loads(report.read_text())["sunHours"]
+        self.assertAlmostEqual(found["daylightHours"], 16, delta=0.3)
+        self.assertLess(found["minHours"], found["meanHours"])
+        zone = "+00:46"  # 11.6 degrees are 46.4 minutes
+        day = {"latitudeDegrees": 48.1, "longitudeDegrees": 11.6,
+               "begin": f"2026-06-21T00:00{zone}", "end": f"2026-06-22T00:00{zone}"}
+        self.render("--view", "sunHours", "--set", "sunHours=" + json.dumps(day))
+        self.assertEqual(self.output.read_bytes(), shown)
+        run = gnomon("render", BOX, "-o", str(self.output), "--sun-hours", "95,11.6 2026-06-21")
+        self.assert_ends(run, PROBLEM, "--sun-hours (/sunHours/latitudeDegrees)")
+        run = gnomon("render", BOX, "-o", str(self.output), "--sun-hours", "48.1,11.6 2026-06-21T08:00/2026-06-22")
+        self.assert_ends(run, PROBLEM, "--sun-hours (/sunHours/begin)", "zone")
+
     def test_what_is_repaired_is_told_and_can_be_refused(self):
         longer = self.folder / "longer.glb"
         longer.write_bytes(Path(BOX).read_bytes() + b"past the end")

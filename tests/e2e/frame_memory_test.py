@@ -1,6 +1,7 @@
 """What a frame is said to take is what it takes, in memory and time; where there is little of either, each frame is a
 picture or a refusal that says why."""
 
+import functools
 import itertools
 import json
 import os
@@ -11,6 +12,7 @@ import unittest
 from pathlib import Path
 
 import shipped_server
+from environments import hdr
 from shipped_server import SCENES, Server, form, workers_of
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "soak"))
@@ -40,8 +42,23 @@ def cloud(side, index):
     return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode() + numbers
 
 
-def upload(server, scene="box_on_plane", volumes=0, side=64):
+@functools.cache
+def picture(name, height):
+    """A picture of all directions, as the format that its name ends with."""
+    if name.endswith(".hdr"):
+        return hdr((200, 180, 160, 129), (90, 80, 70, 128), height)
+    spec = {"width": 2 * height, "height": height, "antialiasing": "none", "lights": [SUN], "shadow": {"enabled": False}}
+    with Server("--device", "cpu") as server:
+        reply = server.frame(upload(server), spec | {"output": {"format": "exr", "exrPixelType": "float"}}, "*/*")
+        assert reply.status == 200, reply.body[:300]
+        return reply.body
+
+
+def upload(server, scene="box_on_plane", volumes=0, side=64, around=None):
+    """`around`: name and height of a picture of all directions."""
     parts = [("scene", "scene.glb", (SCENES / f"{scene}.glb").read_bytes())]
+    if around:
+        parts.append(("file", around[0], picture(*around)))
     parts += [("file", f"v{index}.npy", cloud(side, index)) for index in range(volumes)]
     body, content_type = form(parts)
     reply = server.ask("POST", "/v1/scenes", body, {"Content-Type": content_type})
@@ -91,6 +108,15 @@ CASES = [
     (FULL | PLAIN | {"lights": [SUN], "volumes": [volume(0), volume(1)]}, "*/*"),
     (FULL | SMOOTH | {"lights": [SUN], "volumes": [volume(0)]}, "*/*"),
 ]
+SMALL = {"width": 640, "height": 360}
+SKY = {"sky": {"sun": {"azimuthDegrees": 30, "elevationDegrees": 40}}}
+AROUND = [
+    (SMALL | PLAIN | {"environment": {"file": "around.hdr"}}, ("around.hdr", 2048)),
+    (SMALL | PLAIN | {"environment": {"file": "around.exr", "shadows": "rays"}}, ("around.exr", 2048)),
+    (SMALL | PLAIN | {"environment": {"file": "around.hdr", "background": "environment"}}, ("around.hdr", 512)),
+    (FULL | PLAIN | {"environment": SKY | {"shadows": "rays"}}, None),
+    (FULL | SMOOTH | {"environment": {"shadows": "rays"}}, None),
+]
 
 
 class Estimates(unittest.TestCase):
@@ -104,11 +130,11 @@ class Estimates(unittest.TestCase):
         self.assertEqual(reply.status, 413, reply.body[:300])
         return int(reply.json()["problems"][0]["actual"].split()[0])
 
-    def peak(self, spec, accept, volumes):
+    def peak(self, spec, accept, **files):
         """What a worker that has drawn nothing but a small frame takes beside for this one."""
         with Server("--device", "cpu", "--workers", "1", "--tile-cache-bytes", "0", "--request-timeout", "300") as server:
-            scene = upload(server, "city", volumes=volumes)
-            small = {name: value for name, value in spec.items() if name not in ("volumes", "atlas")}
+            scene = upload(server, "city", **files)
+            small = {name: value for name, value in spec.items() if name not in ("volumes", "atlas", "environment")}
             self.assertEqual(server.frame(scene, small | {"width": 64, "height": 36}, accept).status, 200)
             worker = max(workers_of(server), key=lambda pid: memory_of(pid)[0])
             try:
@@ -120,6 +146,12 @@ class Estimates(unittest.TestCase):
             self.assertEqual(reply.status, 200, reply.body[:300])
             return memory_of(worker)[1] - before
 
+    def compare(self, estimate, peak, spec):
+        if os.environ.get("GNOMON_SHOW"):
+            print(f"{estimate / MB:8.1f} {peak / MB:8.1f} {estimate / peak:5.2f} {json.dumps(spec)[:150]}")
+        self.assertGreaterEqual(estimate, peak)
+        self.assertLessEqual(estimate, 2 * peak + 24 * MB)
+
     def test_a_frame_takes_at_most_what_is_said_and_at_least_half(self):  # F12
         with Server("--device", "cpu", "--workers", "1", "--frame-memory-bytes", "1MB") as said:
             scenes = {count: upload(said, "city", volumes=count) for count in (0, 1, 2)}
@@ -127,11 +159,14 @@ class Estimates(unittest.TestCase):
                 with self.subTest(spec=spec, accept=accept):
                     volumes = len(spec.get("volumes", []))
                     estimate = self.estimate(said, scenes[volumes], spec, accept)
-                    peak = self.peak(spec, accept, volumes)
-                    if os.environ.get("GNOMON_SHOW"):
-                        print(f"{estimate / MB:8.1f} {peak / MB:8.1f} {estimate / peak:5.2f} {json.dumps(spec)[:150]}")
-                    self.assertGreaterEqual(estimate, peak)
-                    self.assertLessEqual(estimate, 2 * peak + 24 * MB)
+                    self.compare(estimate, self.peak(spec, accept, volumes=volumes), spec)
+
+    def test_an_environment_takes_at_most_what_is_said_and_at_least_half(self):  # F12
+        with Server("--device", "cpu", "--workers", "1", "--frame-memory-bytes", "1MB") as said:
+            for spec, around in AROUND:
+                with self.subTest(spec=spec, around=around):
+                    estimate = self.estimate(said, upload(said, "city", around=around), spec, "*/*")
+                    self.compare(estimate, self.peak(spec, "*/*", around=around), spec)
 
 
 SIZES = [(640, 360), (1920, 1080), (2048, 2048), (3900, 2193), (4500, 2531)]

@@ -69,6 +69,7 @@ TEST(Evaluate, SamplesOfAnEnvironmentAreMeasuredAgainstOneReferenceOfManyRays) {
                                              kAround);
   const auto report = evaluated(box, evaluation);
   ASSERT_TRUE(report) << report.problems()[0].detail;
+  EXPECT_EQ(report->rankedBy, RankedError::rms);
   EXPECT_EQ(report->reference.samples, 1024);
   EXPECT_EQ(report->reference.frames, 1);
   ASSERT_TRUE(report->rows[0].metrics && report->rows[1].metrics);

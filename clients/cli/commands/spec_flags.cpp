@@ -10,6 +10,7 @@
 #include "clients/cli/files/file_io.h"
 #include "clients/cli/files/output_names.h"
 #include "clients/cli/spec/spec_arguments.h"
+#include "clients/cli/spec/sun_text.h"
 #include "protocol/base/text.h"
 #include "protocol/fields/field_list.h"
 #include "protocol/spec/enum_rows.h"
@@ -28,18 +29,6 @@ std::optional<std::string> askedFormat(const CLI::App& command, const SpecArgume
   const CLI::Option* output = command.get_option_no_throw("--output");
   if (arguments.format || output == nullptr || output->count() == 0) return arguments.format;
   return formatOf(output->results().back());
-}
-
-/// "AZIMUTH,ELEVATION" or "LATITUDE,LONGITUDE TIME".
-std::optional<Sun> sunOf(const std::string& text) {
-  const auto space = text.find(' ');
-  const auto numbers = parseNumbers(std::string_view(text).substr(0, space), 2, 2);
-  if (!numbers) return std::nullopt;
-  const double first = (*numbers)[0], second = (*numbers)[1];
-  if (space == std::string::npos) return Sun{.azimuthDegrees = first, .elevationDegrees = second};
-  return Sun{.latitudeDegrees = first,
-             .longitudeDegrees = second,
-             .time = std::string(trimmed(std::string_view(text).substr(space)))};
 }
 
 /// "Name: value", as a header of HTTP may be.
@@ -98,6 +87,19 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments, std::vector<st
           "Place of the sun: degrees clockwise from north (-Z), degrees above the horizon; or latitude and longitude "
           "in degrees and a time with its zone, as '48.1,11.6 2026-06-21T17:00+02:00'")
       ->type_name("AZ,EL | 'LAT,LON TIME'")
+      ->group("Picture");
+  command
+      .add_option_function<std::string>(
+          "--sun-hours",
+          [&arguments, refuse](const std::string& text) {
+            arguments.sunHours = sunHoursOf(text);
+            if (arguments.sunHours) return;
+            refuse("--sun-hours",
+                   "needs 'LATITUDE,LONGITUDE DATE' or 'LATITUDE,LONGITUDE BEGIN/END', e.g. '48.1,11.6 2026-06-21'");
+          },
+          "Show for how many hours of a day the sun shines at a place, as '48.1,11.6 2026-06-21': view sunHours. Or "
+          "from BEGIN/END, each a date or a time with its zone; a date starts at midnight by the mean sun of the place")
+      ->type_name("'LAT,LON DATE[/END]'")
       ->group("Picture");
   command
       .add_option_function<std::string>(

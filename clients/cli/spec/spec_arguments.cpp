@@ -147,6 +147,19 @@ std::string turnSun(Json& spec, const Sun& sun) {
   return "/lights/" + std::to_string(light - lights.begin()) + "/sun";
 }
 
+/// Steps and north stay. The view joins those that are named.
+void showSunHours(Json& spec, const SunHours& hours) {
+  Json& asked = spec["sunHours"];
+  if (!asked.is_object()) asked = Json::object();
+  asked["latitudeDegrees"] = *hours.latitudeDegrees;
+  asked["longitudeDegrees"] = *hours.longitudeDegrees;
+  asked["begin"] = hours.begin;
+  asked["end"] = hours.end;
+  Json& views = spec["views"];
+  if (!views.is_array()) views = Json::array();
+  if (std::find(views.begin(), views.end(), "sunHours") == views.end()) views.push_back("sunHours");
+}
+
 /// Into the `output` that the spec has, unless that is no object, which is a problem of its own.
 void setFormat(Json& spec, const std::string& format, FlagOrigins& origins) {
   Json& output = spec["output"];
@@ -185,6 +198,10 @@ Status applyFlags(Json& spec, const SpecArguments& flags, FlagOrigins& origins) 
   if (flags.environment) origins[replaceEnvironment(spec, *flags.environment)] = "--environment";
   if (flags.sun) origins[turnSun(spec, *flags.sun)] = "--sun";
   if (!flags.views.empty()) set("views", flags.views, "--view");
+  if (flags.sunHours) {
+    showSunHours(spec, *flags.sunHours);
+    origins["/sunHours"] = "--sun-hours";
+  }
   for (const auto& [path, text] : flags.sets) {
     const auto value = valueOf(text);
     const Status done = value ? setAtPath(spec, path, *value) : Status(value.problems());

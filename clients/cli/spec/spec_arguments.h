@@ -33,6 +33,7 @@ struct SpecArguments {
   std::optional<std::string> camera;         ///< --camera: its name, its index, or "node:" and its node's index
   std::optional<std::vector<double>> orbit;  ///< --orbit: azimuth, elevation, distance if a third
   std::optional<Sun> sun;                    ///< --sun: azimuth and elevation, or place and time
+  std::optional<SunHours> sunHours;          ///< --sun-hours: place, begin and end
   std::optional<std::string> environment;    ///< --environment: a file's path, or a word of kEnvironmentWords
   std::vector<std::string> views;            ///< --view
   std::map<std::string, std::string> fields; ///< of kFieldFlags: the flag, and its text
@@ -64,8 +65,8 @@ Problems ofRequest(const std::string& file, Problems problems);
 /// `specJson` (a whole FrameSpec, "{}" for none) with the flags laid over it, in the order above but for the format,
 /// which comes last, then checked as the server checks a request. --camera and --orbit replace the placement and keep
 /// the lens; --environment goes in place of another file or a sky and keeps the rest; --sun turns the sun of the sky,
-/// or where there is none the first directional light, or adds one. What is wrong with the JSON by itself is reported
-/// with the `file` that it was read from.
+/// or where there is none the first directional light, or adds one; --sun-hours keeps the steps and north, and adds its
+/// view to those that are named. What is wrong with the JSON by itself is reported with the `file` that it was read from.
 ResolvedSpec resolveSpec(const std::string& specJson, const SpecArguments& arguments, const std::string& file = "");
 
 /// The text of a spec in a file; "-" is standard input, an empty name is "{}".

@@ -39,14 +39,14 @@ double firstTime(const EvaluationReport& report) {
   return 0;
 }
 
-Line lineOf(const EvaluationRow& row, double first) {
+Line lineOf(const EvaluationRow& row, double first, RankedError by) {
   Line line;
   line[0] = printable(shortened(row.name, 48));
   if (!row.milliseconds || !row.metrics) return line;
   const ErrorMetrics& metrics = *row.metrics;
   line[1] = formatted("%.1f", *row.milliseconds);
   line[2] = first > 0 ? formatted("%.2f", *row.milliseconds / first) : "";
-  line[3] = formatted("%.4f", 100 * metrics.misclassified);
+  line[3] = by == RankedError::rms ? formatted("%.5f", metrics.rms) : formatted("%.4f", 100 * metrics.misclassified);
   line[4] = formatted("%.4f", 100 * metrics.falseShadow);
   line[5] = formatted("%.4f", 100 * metrics.falseLit);
   line[6] = metrics.edgeDisplacement ? formatted("%.2f", metrics.edgeDisplacement->mean) : "-";
@@ -71,8 +71,9 @@ std::string padded(const std::string& text, std::size_t width, bool left) {
 std::string evaluationTable(const EvaluationReport& report) {
   std::vector<Line> lines(1);
   std::copy(kHeads.begin(), kHeads.end(), lines[0].begin());
+  if (report.rankedBy == RankedError::rms) lines[0][3] = "rms";
   const double first = firstTime(report);
-  for (const EvaluationRow& row : report.rows) lines.push_back(lineOf(row, first));
+  for (const EvaluationRow& row : report.rows) lines.push_back(lineOf(row, first, report.rankedBy));
   const bool moved = std::any_of(report.rows.begin(), report.rows.end(),
                                  [](const EvaluationRow& row) { return row.metrics && row.metrics->shimmer; });
   if (!moved) lines[0][7] = "";

@@ -939,8 +939,8 @@ class EvaluationRow(TypedDict, total=False):
     metrics:
         Its error; absent if there is a problem.
     pareto:
-        True = no other row is faster and misclassifies no more receivers; of an environment's share, has no more
-        rms. Absent in an event `row`.
+        True = no other row is faster and has no more of the error that rows are `rankedBy`. Absent in an event
+        `row`.
     problems:
         Why it could not be measured; absent if it was.
     """
@@ -979,6 +979,9 @@ class EvaluationReport(TypedDict, total=False):
 
     rows:
         One for each variant, in their order.
+    rankedBy:
+        The metric that is a row's error. misclassified = the share of misclassified receivers; rms = the root mean
+        square of the difference, where the environment's share is measured.
     reference:
         The exact shadows that the rows were compared with.
     renderer:
@@ -986,6 +989,7 @@ class EvaluationReport(TypedDict, total=False):
     """
 
     rows: List["EvaluationRow"]
+    rankedBy: Literal["misclassified", "rms"]
     reference: "ReferenceReport"
     renderer: "RendererInfo"
 

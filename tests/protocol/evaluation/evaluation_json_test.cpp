@@ -122,9 +122,11 @@ TEST(EvaluationReportJson, ReadsBackAsItWasWritten) {
   bad.pareto = false;
   bad.problems = {{"unsupportedFeature", "/shadow/technique", "It can't.", std::nullopt, "a mask"}};
   report.rows = {good, bad};
+  report.rankedBy = RankedError::rms;
   const Json json = toJson(report);
   EXPECT_EQ(json["rows"][0]["variant"]["shadow"]["technique"], "rayTraced");
   EXPECT_EQ(json["rows"][0]["stages"]["shade"], 30.25);
+  EXPECT_EQ(json["rankedBy"], "rms");
   EXPECT_FALSE(json["rows"][1].contains("metrics") || json["rows"][1].contains("milliseconds"));
   const auto back = readEvaluationReport(json.dump());
   ASSERT_TRUE(back);
@@ -135,6 +137,7 @@ TEST(EvaluationReportJson, WhatIsNewerThanThisClientIsPassedOver) {
   const auto report = readEvaluationReport(R"({"rows": [{"name": "a", "luck": 7}], "weather": "fine"})");
   ASSERT_TRUE(report);
   EXPECT_EQ(report->rows[0].name, "a");
+  EXPECT_EQ(report->rankedBy, RankedError::misclassified) << "which an older server does not say";
   for (const char* text : {"", "[]", "{}", R"({"rows": 3})", R"({"rows": []})"})
     EXPECT_FALSE(readEvaluationReport(text));
 }

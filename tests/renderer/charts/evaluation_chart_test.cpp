@@ -58,6 +58,26 @@ TEST(EvaluationChart, EveryMeasuredRowHasAPointAndEveryRowALineOfTheLegend) {
   EXPECT_EQ(countOf(svg, "It is so &amp; so &lt; ever."), 1u);
 }
 
+TEST(EvaluationChart, ShowsTheErrorThatRowsAreRankedBy) {
+  EvaluationReport report;
+  report.rows = {row("1 ray", 10, 0.5, true), row("16 rays", 40, 0.5, true)};
+  report.rows[0].metrics->rms = 0.04;
+  report.rows[1].metrics->rms = 0.0101;
+  report.rankedBy = RankedError::rms;
+  const std::string svg = evaluationChart(report);
+  expectWellFormed(svg);
+  EXPECT_EQ(countOf(svg, ">rms of the share of light<"), 1u);
+  EXPECT_EQ(countOf(svg, "misclassified") + countOf(svg, " %"), 0u);
+  EXPECT_EQ(countOf(svg, ">0.04<"), 1u);
+  const std::regex circle(R"re(<circle cx="([0-9.]+)" cy="([0-9.]+)")re");
+  std::vector<double> heights;
+  for (auto at = std::sregex_iterator(svg.begin(), svg.end(), circle); at != std::sregex_iterator(); ++at) {
+    heights.push_back(std::stod((*at)[2]));
+  }
+  ASSERT_EQ(heights.size(), 2u);
+  EXPECT_GT(heights[1], heights[0] + 50) << "a smaller error lies lower, though both misclassify the same";
+}
+
 TEST(EvaluationChart, NothingMeasuredAndAllTheSameAreChartsAsWell) {
   expectWellFormed(evaluationChart({}));
   EvaluationReport report;

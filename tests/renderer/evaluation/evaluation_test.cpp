@@ -8,6 +8,8 @@
 #include "renderer/evaluation/evaluation_measures.h"
 #include "renderer/evaluation/world_points.h"
 #include "renderer/render.h"
+#include "tests/renderer/frame/squares.h"
+#include "tests/renderer/made_environment.h"
 #include "tests/support/glb_builder.h"
 
 namespace gnomon {
@@ -39,6 +41,16 @@ TEST(Pareto, EqualRowsAreBothOnItAndRowsWithoutFiguresNever) {
   EXPECT_EQ(frontOf({row(10, 0.1), row(10, 0.1), EvaluationRow{}, untimed}),
             (std::vector<bool>{true, true, false, false}));
   EXPECT_TRUE(frontOf({}).empty());
+}
+
+TEST(Pareto, ComparesTheErrorThatRowsAreRankedBy) {
+  std::vector<EvaluationRow> rows{row(10, 0.01), row(20, 0.03)};
+  rows[0].metrics->rms = 0.2;
+  rows[1].metrics->rms = 0.1;
+  markPareto(rows, RankedError::rms);
+  EXPECT_TRUE(*rows[1].pareto);
+  markPareto(rows);
+  EXPECT_FALSE(*rows[1].pareto);
 }
 
 TEST(Median, IsTheMiddleWhateverTheOrder) {
@@ -231,6 +243,28 @@ TEST(EvaluationErrors, AreReadFromTheMapsThatTheFrameHasWithItsOwnAntialiasing) 
     EXPECT_EQ(drawn[i].antialiasing, i % 3 == 0 ? Antialiasing::none : Antialiasing::msaa4x) << i;
     EXPECT_EQ(drawn[i].views, std::vector{i < 3 ? View::shadow : View::color}) << i;
   }
+}
+
+TEST(EvaluationErrors, AreHeldAgainstTheEnvironmentThatTheRendererHas) {
+  auto scene = std::make_shared<Scene>(*testing::squares());
+  const auto file =
+      std::make_shared<const EnvironmentFile>(testing::hdrFile(16, [](const glm::dvec3&) { return glm::dvec3(1); }));
+  scene->environmentFiles.emplace("even.hdr", file);
+  const auto evaluation = decodeEvaluation(R"({"repeats": 1, "variants": [{}],
+      "spec": {"width": 16, "height": 16, "camera": {"eye": [0, 5, 0.1], "target": [0, 0, 0]},
+               "environment": {"file": "even.hdr", "shadows": "rays"}, "debug": {"light": "environment"}}})");
+  ASSERT_TRUE(evaluation);
+  const auto rmsBy = [&](const std::shared_ptr<EnvironmentCache>& environments) {
+    const auto report = evaluate(scene, *evaluation, processor(), {litFrames(1, 0), {}, environments});
+    EXPECT_TRUE(report && report->rows[0].metrics);
+    return report && report->rows[0].metrics ? report->rows[0].metrics->rms : -1.0;
+  };
+  EXPECT_GT(rmsBy(std::make_shared<EnvironmentCache>()), 0.01) << "the smaller square hides some of it";
+  const auto known = std::make_shared<EnvironmentCache>();
+  SplitEnvironment above{{32, 16, std::vector<glm::vec3>(32 * 16)}, {}}; // from the horizon, where nothing is hidden
+  for (std::size_t x = 0; x < 32; ++x) above.map.texels[7 * 32 + x] = glm::vec3(1);
+  ASSERT_TRUE(known->get(file, SunExtraction::auto_, above));
+  EXPECT_LT(rmsBy(known), 0.5 * rmsBy(std::make_shared<EnvironmentCache>()));
 }
 
 TEST(EvaluationSteps, AreAllFinishedWhicheverLightAVariantFailsAt) {

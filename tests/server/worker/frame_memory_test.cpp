@@ -90,7 +90,16 @@ TEST(FrameMemory, CountsTheEnvironment) {
   FrameSpec spec = unshadowed();
   const std::size_t before = bytesOf(spec, scene);
   spec.environment.file = "sky.hdr";
-  EXPECT_GE(bytesOf(spec, scene), before + 4 * (32 << 20));
+  EXPECT_GE(bytesOf(spec, scene), before + (32 << 20) + (50 << 20)) << "and what is prepared";
+  EXPECT_LT(bytesOf(spec, scene), before + (32 << 20) + (70 << 20));
+}
+
+TEST(FrameMemory, CountsWhatIsHiddenOfTheEnvironment) {
+  const auto hidden = [](FrameSpec& each) { each.environment.shadows = EnvironmentShadows::rays; };
+  EXPECT_EQ(added(unshadowed(), hidden), 27u + 8 - 4) << "less the file, which comes later";
+  FrameSpec smooth = unshadowed();
+  smooth.antialiasing = Antialiasing::msaa4x;
+  EXPECT_EQ(added(smooth, hidden), 27u + 4 * 8 - 4);
 }
 
 TEST(FrameMemory, TheAtlasHasItsOwnSize) {

@@ -138,6 +138,11 @@ TEST(EvaluationTable, TellsTimesAsMultiplesOfTheFirstAndErrorsInPercent) {
   EXPECT_EQ(lines[0], "           ms     x  wrong %  false shadow %  false lit %  edge px");
   EXPECT_EQ(lines[1], "härt     20.0  1.00   1.2500          1.0000       0.2500     0.50  *");
   EXPECT_EQ(lines[2], "slow     50.0  2.50   1.2500          1.0000       0.2500        -");
+  report.rankedBy = RankedError::rms;
+  report.rows[0].metrics->rms = 0.0123456;
+  const auto ofShares = linesOf(evaluationTable(report));
+  EXPECT_EQ(ofShares[0], "           ms     x      rms  false shadow %  false lit %  edge px");
+  EXPECT_EQ(ofShares[1], "härt     20.0  1.00  0.01235          1.0000       0.2500     0.50  *");
   EXPECT_EQ(lines[3], "refused  /shadow: No?[31m such.");
   EXPECT_TRUE(lines[5].starts_with("Held against 1 traced frame (")) << lines[5];
 }
