@@ -118,7 +118,8 @@ TEST(VolumeSkyFrames, ABallOfFogTakesWhatItsChordsSay) {
   for (const double sigma : {0.3, 1.0, 4.0}) {
     const double wanted = shareUnder(sigma, [](const glm::dvec3& d) { return ballChord(d, 2, 1); });
     const Json spec = specOf(0.9, 2, {volumeOf("ball.npy", {-1, 1, -1}, {1, 3, 1}, sigma)});
-    EXPECT_NEAR(meanShare(scene, spec), wanted, 0.004) << sigma;
+    // Cells of 1/16 of the radius blur the rim, the more the denser it is.
+    EXPECT_NEAR(meanShare(scene, spec), wanted, sigma > 1 ? 0.008 : 0.004) << sigma;
   }
 }
 
@@ -233,23 +234,26 @@ TEST(VolumeSkyFrames, ADenseVolumeIsDarkerThanAThinOne) {
   EXPECT_GT(last, 0.2);
 }
 
-bool isReused(const ScenePtr& scene, const Json& patch) {
+bool isReused(const ScenePtr& scene, const Json& patch = Json::object()) {
   Json spec = specOf(0.9, 2, {volumeOf("ball.npy", {-1, 1, -1}, {1, 3, 1}, 2, 1)});
+  spec.erase("debug");
+  spec["views"] = {"color"};
+  spec["environment"]["samples"] = 1;
   spec.merge_patch(patch);
   return renderJson(scene, spec.dump()).report.volumes.at(0).reused;
 }
 
 TEST(VolumeSkyFrames, ItsSkyIsFoundAgainOnlyWhereItChanges) {
   const ScenePtr scene = underSky(whiteFloor(0.5f));
-  EXPECT_FALSE(isReused(scene, {}));
-  EXPECT_TRUE(isReused(scene, {}));
+  EXPECT_FALSE(isReused(scene));
+  EXPECT_TRUE(isReused(scene));
   EXPECT_TRUE(isReused(scene, {{"width", 24}}));
   EXPECT_FALSE(isReused(scene, {{"environment", {{"file", "half.hdr"}}}}));
   EXPECT_FALSE(isReused(scene, {{"environment", {{"rotationDegrees", 10}}}}));
   EXPECT_FALSE(isReused(scene, {{"environment", {{"intensity", 2}}}}));
-  EXPECT_FALSE(isReused(scene, {{"environment", {{"samples", 8}}}}));
+  EXPECT_FALSE(isReused(scene, {{"environment", {{"samples", 2}}}}));
   EXPECT_FALSE(isReused(scene, kNoShadows));
-  EXPECT_TRUE(isReused(scene, {}));
+  EXPECT_TRUE(isReused(scene));
 }
 
 } // namespace
