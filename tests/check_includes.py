@@ -5,7 +5,7 @@ usage: check_includes.py [ROOT]      prints one line a fault; exit status 1 if t
 
 Who may include whom, one way:
   protocol/base <- protocol <- renderer/core <- renderer/image <- renderer/environment <- renderer/scene; core <- renderer/{shadow,volume,video};
-  scene <- renderer/rays <- renderer/bake, renderer/reference; scene, shadow <- renderer/prepare <- renderer/resolve;
+  scene, volume <- renderer/rays <- renderer/bake, renderer/reference; scene, shadow <- renderer/prepare <- renderer/resolve;
   bake, prepare <- renderer/techniques;
   bake, resolve, volume <- renderer/device <- renderer/frame <- renderer/evaluation, renderer/export
            <- renderer/render.h <- server/worker;
@@ -43,7 +43,7 @@ MAY_INCLUDE = {
     "renderer/scene": ["protocol", "renderer/core", "renderer/image", "renderer/environment", "renderer/scene"],
     "renderer/shadow": ["protocol", "renderer/core", "renderer/shadow"],
     "renderer/volume": ["protocol", "renderer/core", "renderer/volume"],
-    "renderer/rays": ["protocol", "renderer/core", "renderer/image", "renderer/scene", "renderer/shaders/shared", "renderer/rays"],
+    "renderer/rays": ["protocol", "renderer/core", "renderer/image", "renderer/scene", "renderer/shaders/shared", "renderer/volume", "renderer/rays"],
     "renderer/reference": ["protocol", "renderer/core", "renderer/environment", "renderer/scene", "renderer/rays", "renderer/reference"],
     "renderer/bake": ["protocol", "renderer/core", "renderer/environment", "renderer/scene", "renderer/rays", "renderer/bake"],
     "renderer/shaders": ["renderer/shaders", "renderer/shaders/shared"],

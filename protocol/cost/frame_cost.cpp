@@ -39,6 +39,7 @@ constexpr double kReferenceRay = 90;
 constexpr double kSkyReference = 1024; ///< rays
 constexpr double kSkyPixel = 120;      ///< its point and the filter
 constexpr double kSkyRay = 4;          ///< times the binary logarithm of the triangles
+constexpr double kDimmedRay = 40;      ///< of the surroundings, by each volume
 constexpr double kMarchedPixel = 900;  ///< through a volume of 64 voxels along each side
 constexpr double kVolumeStep = 16;     ///< of a ray towards a light, in each of the volumes
 constexpr double kPredictedPixel = 80;
@@ -103,11 +104,26 @@ void addLayer(const Light& light, const FrameSpec& spec, const SceneCounts& scen
   }
 }
 
+/// Of a ray to the environment, past surfaces and volumes.
+double skyRayCost(const FrameSpec& spec, const SceneCounts& scene) {
+  return kSkyRay * std::log2(2 + static_cast<double>(scene.triangles)) +
+         kDimmedRay * static_cast<double>(spec.volumes.size());
+}
+
+/// The environment's light in all volumes: from each place of each, in many directions.
+double volumeSkyCost(const FrameSpec& spec, const SceneCounts& scene) {
+  constexpr double kMostPlaces = 32; // along a side
+  constexpr double kRaysOfSample = 16, kMostRays = 1024;
+  const double places = std::pow(std::min(volumeSide(scene) + 1, kMostPlaces), 3);
+  const double rays = std::min(kRaysOfSample * spec.environment.samples, kMostRays);
+  return static_cast<double>(spec.volumes.size()) * places * rays * skyRayCost(spec, scene);
+}
+
 /// What rays find of what the scene hides of an environment: those of each pixel, and as many again where they
 /// disagree.
 double skyCost(const FrameSpec& spec, const SceneCounts& scene) {
   const double rays = 2 * spec.environment.samples + 1;
-  double pixel = kSkyPixel + rays * kSkyRay * std::log2(2 + static_cast<double>(scene.triangles));
+  double pixel = kSkyPixel + rays * skyRayCost(spec, scene);
   if (samplesOf(spec.antialiasing) > 1) pixel *= 1.2;
   return pixelsOf(spec) * pixel;
 }
@@ -192,6 +208,7 @@ FrameCost frameCost(const FrameSpec& spec, const SceneCounts& scene, DeviceKind 
   if (spec.debug.predictEdges) cost[FramePart::predict] = pixels * kPredictedPixel;
   if (!spec.volumes.empty()) {
     cost[FramePart::volume] = volumeLightCost(spec, scene, lights.size());
+    if (spec.environment.shadows == EnvironmentShadows::rays) cost[FramePart::volume] += volumeSkyCost(spec, scene);
     cost[FramePart::shade] +=
         pixels * static_cast<double>(spec.volumes.size()) * kMarchedPixel * volumeSide(scene) / 64;
   }

@@ -8,7 +8,9 @@ Result<SkyShadow> skyLayer(const CameraRaster& camera, const FrameWork& work, co
   const SampleGrid grid = gridOf(surfaces);
   const ShownNumbers shown = shownNumbers(surfaces);
   const TriangleNumbers numbers(camera.scene.geometry);
-  const TraceInput rays{**scene, camera.camera, surfaces.width, surfaces.height, *work.frame.spec.lights, camera.nodes};
+  const std::vector<const Medium*> media = mediaOf(work);
+  const TraceInput rays{**scene,      camera.camera, surfaces.width, surfaces.height, *work.frame.spec.lights,
+                        camera.nodes, media};
   const PicturePoints points(rays, grid, numbers, shown, {});
   return skyShadow(points, skyLightOf(work.environment), work.frame.spec.environment.samples);
 }

@@ -69,6 +69,11 @@ struct FrameWork {
   std::vector<std::uint32_t> parts{};            ///< what the survey reports separately: receiver groups, a bit each
 };
 
+/// Which live as long as the frame's volumes; none where it has none.
+inline std::vector<const Medium*> mediaOf(const FrameWork& work) {
+  return work.volumes != nullptr ? work.volumes->all() : std::vector<const Medium*>{};
+}
+
 /// Whether tiles that earlier frames drew may serve a frame. Its pictures are the same either way; its times are not.
 enum class TileUse { kept, drawnAnew };
 

@@ -56,6 +56,7 @@ FrameSpec shadowSpec(const Subject& subject, int light) {
   spec.views = {View::shadow};
   if (light == kEnvironmentLight) {
     spec.lights->clear();
+    spec.volumes.clear(); // which the truth leaves out
     spec.debug = {kEnvironmentName};
   } else {
     for (Light& each : *spec.lights) each.shadow->strength = 1;

@@ -113,7 +113,7 @@ bool showsTriangles(View view) {
 } // namespace
 
 Result<MeasuredShadow> measureShadow(const ResolvedFrame& frame, const TracedScene& traced, int light,
-                                     const FrameEnvironment& environment, std::vector<float> shown) {
+                                     const FrameSurroundings& around, std::vector<float> shown) {
   const FrameSpec& spec = frame.spec;
   std::vector<int> lights;
   int samples = kReferenceSamples;
@@ -121,9 +121,9 @@ Result<MeasuredShadow> measureShadow(const ResolvedFrame& frame, const TracedSce
     lights.push_back(light);
     samples = std::max(samples, (*spec.lights)[static_cast<std::size_t>(light)].shadow->raySamples);
   }
-  const TraceInput input{traced, frame.view, spec.width, spec.height, *spec.lights, frame.nodes};
+  const TraceInput input{traced, frame.view, spec.width, spec.height, *spec.lights, frame.nodes, around.media};
   auto truth = light == kEnvironmentLight
-                   ? traceReference(input, skyLightOf(&environment),
+                   ? traceReference(input, skyLightOf(&around.environment),
                                     std::max(kEnvironmentReferenceSamples, spec.environment.samples))
                    : traceReference(input, lights, samples);
   if (!truth) return truth.problems();

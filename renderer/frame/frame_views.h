@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "protocol/base/result.h"
@@ -24,10 +25,16 @@ struct MeasuredShadow {
   ErrorMetrics errors;      ///< without shimmer and predicted
 };
 
-/// Traces light `light` of a frame (-1 = it has none; kEnvironmentLight) and holds `shown` against it. `environment`:
-/// the frame's.
+/// Where a frame's light from everywhere comes from, and the volumes that dim it.
+struct FrameSurroundings {
+  const FrameEnvironment& environment;
+  std::span<const Medium* const> media;
+};
+
+/// Traces light `light` of a frame (-1 = it has none; kEnvironmentLight) and holds `shown` against it. `around`: the
+/// frame's; its media count for the environment alone.
 Result<MeasuredShadow> measureShadow(const ResolvedFrame& frame, const TracedScene& traced, int light,
-                                     const FrameEnvironment& environment, std::vector<float> shown);
+                                     const FrameSurroundings& around, std::vector<float> shown);
 
 /// The pictures that a frame's views take: one for each view that a device can show, and, where a view compares a
 /// shadow with rays or edges are predicted, that shadow at full strength and a picture to paint on.

@@ -100,7 +100,8 @@ Result<Frame> drawnFrame(Device& device, FrameCaches& caches, const ScenePtr& lo
   if (views.needReference()) {
     const auto rays = tracedScene();
     if (!rays) return rays.problems();
-    auto compared = measureShadow(resolved, **rays, subject->light, environment, views.fullShadow(drawing));
+    const std::vector<const Medium*> media = made.volumes.all();
+    auto compared = measureShadow(resolved, **rays, subject->light, {environment, media}, views.fullShadow(drawing));
     if (!compared) return compared.problems();
     measured = std::move(*compared);
     if (predicted != nullptr) measured->errors.predicted = *predicted;

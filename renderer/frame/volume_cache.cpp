@@ -5,6 +5,7 @@
 #include "renderer/core/collect.h"
 #include "renderer/core/linear_algebra.h"
 #include "renderer/volume/density_grid.h"
+#include "renderer/volume/extinction_cells.h"
 
 namespace gnomon {
 namespace {
@@ -88,7 +89,8 @@ void VolumeCache::drop() {
   std::set<const DensityGrid*> grids;
   entries_.keepWithin(budgetBytes_, [&grids](const Entry& entry) {
     const DensityGrid* grid = entry.medium->grid.get();
-    return entry.medium->bricks.filled.size() + (grids.insert(grid).second ? bytesOf(*grid) : 0);
+    const std::size_t cells = entry.medium->cells->perMetre.size() * sizeof(float);
+    return entry.medium->bricks.filled.size() + cells + (grids.insert(grid).second ? bytesOf(*grid) : 0);
   });
 }
 

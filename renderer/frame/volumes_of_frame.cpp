@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <optional>
 #include <span>
 #include <type_traits>
 
@@ -13,6 +14,7 @@
 #include "renderer/core/linear_algebra.h"
 #include "renderer/core/parallel.h"
 #include "renderer/device/shader_data.h"
+#include "renderer/frame/volume_sky.h"
 #include "renderer/rays/trace.h"
 #include "renderer/resolve/plan_input.h"
 #include "renderer/resolve/studio_radiance.h"
@@ -186,27 +188,59 @@ void chooseLight(const ResolvedFrame& frame, FrameVolumes& volumes) {
   }
 }
 
+bool findsSky(const ResolvedFrame& frame) {
+  return frame.spec.environment.shadows == EnvironmentShadows::rays;
+}
+
+/// A text that differs where the share of the environment that arrives does, or its radiance, but for its object.
+std::string skyText(const ResolvedFrame& frame, const FrameEnvironment& environment) {
+  if (!findsSky(frame)) return {};
+  Values text;
+  text.add(environment.studioLamps).add(environment.mapFromWorld).add(meanAround(frame, environment));
+  return text.add(frame.spec.environment.samples).take();
+}
+
+/// What reaches one of `media` of the environment; `rays` if surfaces or media hide any.
+VolumeLight skyIn(const Medium& medium, const glm::ivec3& size, const TraceInput* rays, const ResolvedFrame& frame,
+                  const FrameEnvironment& environment) {
+  const glm::dvec3 open = meanAround(frame, environment);
+  if (rays == nullptr) return openSky(open);
+  const TracedSky sky(*rays);
+  const int count = skyDirectionCount(frame.spec.environment.samples);
+  return skyInVolume(sky, skyDirections(skyLightOf(&environment), count), open, medium.space, size);
+}
+
 /// The light in one of `volumes.media`: kept, or made now.
 Result<VolumeLightStore::Found> lightIn(const FrameVolumes& volumes, std::size_t chosen, VolumeLightStore& lights,
-                                        TracedSceneCache& traced, const SettledFrame& settled) {
+                                        TracedSceneCache& traced, const SettledFrame& settled,
+                                        const FrameEnvironment& environment) {
   const auto start = std::chrono::steady_clock::now();
-  std::vector<const Medium*> all;
-  for (const auto& medium : volumes.media) all.push_back(medium.get());
+  const std::vector<const Medium*> all = volumes.all();
   const Medium& medium = *all[chosen];
   const ResolvedFrame& frame = settled.frame;
   VolumeLightInput input{.media = all, .chosen = chosen, .size = volumeLightSize(*medium.grid)};
   if (volumes.light >= 0) input.towards = volumes.towards;
   const ShiningLights shining = shiningLights(frame, toWorld(medium.space, glm::dvec3(0.5)));
-  const VolumeLightKey key(input, lightsText(shining), castersText(frame));
+  const bool findSky = findsSky(frame);
+  const VolumeLightKey key(input, lightsText(shining) + skyText(frame, environment), castersText(frame),
+                           findSky ? environment.environment : nullptr);
   LightShares shares;
-  if (!lights.holds(key) && medium.receiveShadow && !shining.shadowing.empty()) {
-    const auto rays = traced.get(settled.scene, frame.scene);
-    if (!rays) return rays.problems();
-    shares =
-        surfaceShares(shining, {**rays, frame.view, 1, 1, *frame.spec.lights, frame.nodes}, medium.space, input.size);
+  std::optional<VolumeLight> sky;
+  if (!lights.holds(key)) {
+    std::optional<TraceInput> rays;
+    std::shared_ptr<const TracedScene> surfaces;
+    if (medium.receiveShadow && (findSky || !shining.shadowing.empty())) {
+      auto found = traced.get(settled.scene, frame.scene);
+      if (!found) return found.problems();
+      surfaces = *std::move(found);
+      rays.emplace(TraceInput{*surfaces, frame.view, 1, 1, *frame.spec.lights, frame.nodes, all});
+      shares = surfaceShares(shining, *rays, medium.space, input.size);
+    }
+    if (findSky) sky = skyIn(medium, input.size, rays ? &*rays : nullptr, frame, environment);
   }
   const std::vector<ArrivalAt> arrivals = arrivalsOf(shining, shares);
   input.lights = arrivals;
+  input.around = sky ? &*sky : nullptr;
   return lights.mapOf(key, [&] {
     VolumeLight light = makeVolumeLight(input);
     light.milliseconds = millisecondsSince(start);
@@ -240,11 +274,11 @@ Result<MadeVolumes> volumesOf(VolumeCache& cache, TracedSceneCache& traced, cons
     volumes.media.push_back((*media)[i]);
     shown.push_back(i);
   }
-  volumes.ambient = meanAround(frame, environment);
+  if (!findsSky(frame)) volumes.ambient = meanAround(frame, environment);
   chooseLight(frame, volumes);
   made.reports.resize(media->size());
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    const auto found = lightIn(volumes, i, cache.lights(), traced, settled);
+    const auto found = lightIn(volumes, i, cache.lights(), traced, settled, environment);
     if (!found) return found.problems();
     volumes.lights.push_back(found->map);
     made.reports[shown[i]] = reportOf(*volumes.media[i], *found);

@@ -17,7 +17,8 @@ struct MadeVolumes {
 };
 
 /// The volumes of a frame with the light in them, made now if need be. Surfaces shade them by rays to the middle of
-/// each light, whatever its technique. A problem at /volumes/i/file where a file is broken.
+/// each light, whatever its technique, and by rays all around from the environment where the frame asks for its
+/// shadows. A problem at /volumes/i/file where a file is broken.
 Result<MadeVolumes> volumesOf(VolumeCache& cache, TracedSceneCache& traced, const SettledFrame& settled,
                               const FrameEnvironment& environment);
 

@@ -8,6 +8,7 @@
 #include "renderer/rays/drawn_query.h"
 #include "renderer/rays/smooth_surface.h"
 #include "renderer/rays/tree.h"
+#include "renderer/volume/transmittance.h"
 
 namespace gnomon {
 
@@ -57,6 +58,39 @@ std::vector<SkyShaded> shadedInstances(const TraceInput& input) {
   return all;
 }
 
+static_assert(EndlessRays::kCount == kLanes);
+
+void setFrom(EndlessRays& rays, unsigned lane, const glm::dvec3& from) {
+  for (int axis = 0; axis < 3; ++axis) rays.from[axis][lane] = from[axis];
+}
+
+/// The rays that still bring light, to be dimmed.
+EndlessRays raysTo(const Casters& casters, const DrawnPoints& points, const SkyWays& ways,
+                   const std::array<SurfacePoint, kLanes>& exact, const std::array<float, kLanes>& shares) {
+  EndlessRays rays;
+  std::copy_n(&ways.toward[0][0], 3 * kLanes, &rays.toward[0][0]);
+  const double metres = 1 / casters.tree.scale;
+  for (unsigned i = 0; i < kLanes; ++i) {
+    rays.asked[i] = shares[i] > 0 ? ways.asked[i] : 0;
+    const glm::dvec3 place =
+        points.sure[i] != 0 ? glm::dvec3(laneOf(points.relative, i)) * metres + casters.eye : exact[i].position;
+    setFrom(rays, i, rays.asked[i] != 0 ? place : casters.eye);
+  }
+  return rays;
+}
+
+/// Dims what comes to `point` along the first `ways.size()` lanes.
+void dim(const Transmittance& media, const SurfacePoint& point, std::span<const glm::dvec3> ways, float* shares) {
+  EndlessRays rays{};
+  for (unsigned i = 0; i < ways.size(); ++i) {
+    rays.asked[i] = shares[i] > 0 ? -1 : 0;
+    setFrom(rays, i, point.position);
+    for (int axis = 0; axis < 3; ++axis) rays.toward[axis][i] = static_cast<float>(ways[i][axis]);
+  }
+  const std::array<float, kLanes> through = media.along(rays);
+  for (unsigned i = 0; i < ways.size(); ++i) shares[i] *= through[i];
+}
+
 } // namespace
 
 struct TracedSky::State {
@@ -65,11 +99,13 @@ struct TracedSky::State {
   LightSource source;
   std::vector<SkyShaded> instances;
   DrawnView view;
+  Transmittance media;
 };
 
 TracedSky::TracedSky(const TraceInput& input)
     : state_(new State{input, skyCasters(input), sourceAround(), shadedInstances(input),
-                       drawnView(sightOf(input), input.traced.tree().scale)}) {}
+                       drawnView(sightOf(input), input.traced.tree().scale),
+                       Transmittance(input.media, input.traced.tree().anchor)}) {}
 TracedSky::~TracedSky() = default;
 
 bool TracedSky::receives(std::uint32_t instance) const {
@@ -96,6 +132,7 @@ void TracedSky::through(const SurfacePoint& point, std::span<const glm::dvec3> w
     const unsigned count = rays.count;
     const std::array<float, kLanes> found = sharesThrough(state_->casters, rays);
     std::copy_n(found.begin(), count, shares.begin() + static_cast<std::ptrdiff_t>(first));
+    if (!state_->media.empty()) dim(state_->media, point, ways.subspan(first, count), shares.data() + first);
     first += count;
   };
   for (const glm::dvec3& way : ways) {
@@ -103,6 +140,12 @@ void TracedSky::through(const SurfacePoint& point, std::span<const glm::dvec3> w
     if (rays.count == kLanes) trace();
   }
   trace();
+}
+
+void TracedSky::through(const glm::dvec3& place, std::span<const glm::dvec3> ways, std::span<float> shares) const {
+  SurfacePoint inAir;
+  inAir.position = place - state_->casters.tree.anchor;
+  through(inAir, ways, shares);
 }
 
 struct SkyPacket::Starts {
@@ -191,19 +234,28 @@ std::array<float, SkyPlaces::kCount> SkyPacket::through(const SkyWays& ways) {
     shares = sharesThrough(query, sure);
     for (unsigned i = 0; i < kLanes; ++i) shares[i] = sure.active[i] != 0 ? shares[i] : 0.0f;
   }
-  if (exact == 0) return shares;
+  if (exact != 0) traceExactly(ways, exact, shares);
+  if (of.media.empty()) return shares;
+  const std::array<float, kLanes> through =
+      of.media.along(raysTo(of.casters, starts.points, ways, starts.exact, shares));
+  for (unsigned i = 0; i < kLanes; ++i) shares[i] *= through[i];
+  return shares;
+}
+
+void SkyPacket::traceExactly(const SkyWays& ways, unsigned lanesAsked, std::array<float, kLanes>& shares) const {
+  const Casters& casters = sky_.state().casters;
+  const Starts& starts = *starts_;
   RaysToLight rays;
   std::array<unsigned, kLanes> lanes{};
   for (unsigned i = 0; i < kLanes; ++i) {
-    if ((exact >> i & 1u) == 0) continue;
+    if ((lanesAsked >> i & 1u) == 0) continue;
     lanes[rays.count] = i;
-    rays.add(of.casters.tree, starts.exact[i], startOf(of.casters.tree, starts.exact[i]),
+    rays.add(casters.tree, starts.exact[i], startOf(casters.tree, starts.exact[i]),
              {glm::normalize(glm::dvec3(laneOf(ways.toward, i))), HUGE_VAL});
   }
   const unsigned count = rays.count;
-  const std::array<float, kLanes> found = sharesThrough(of.casters, rays);
+  const std::array<float, kLanes> found = sharesThrough(casters, rays);
   for (unsigned i = 0; i < count; ++i) shares[lanes[i]] = found[i];
-  return shares;
 }
 
 } // namespace gnomon

@@ -25,8 +25,8 @@ struct SkyWays {
   int asked[SkyPlaces::kCount];                   ///< -1: a ray is sent; else 0
 };
 
-/// What throws shadows of such light: all nodes that cast shadows, whatever their layers. Made once for a frame; any
-/// thread. What the input refers to outlives it.
+/// What throws shadows of such light: all nodes that cast shadows, whatever their layers, and the input's media. Made
+/// once for a frame; any thread. What the input refers to outlives it.
 class TracedSky {
  public:
   explicit TracedSky(const TraceInput& input);
@@ -40,9 +40,13 @@ class TracedSky {
   /// By which a picture shades a point, without a normal map; unit length. REQUIRES: a surface.
   glm::dvec3 shadingNormal(const SurfacePoint& point) const;
 
-  /// The share of the light that comes to a point along each way, as doubles find it; on the calling thread. REQUIRES:
-  /// as many of each; ways of unit length that lead off the triangle's plane, to the eye's side.
+  /// The share of the light that comes to a point along each way, past casters as doubles find them and past media; on
+  /// the calling thread. REQUIRES: as many of each; ways of unit length that lead off the triangle's plane, to the
+  /// eye's side.
   void through(const SurfacePoint& point, std::span<const glm::dvec3> ways, std::span<float> shares) const;
+
+  /// The same of a place in the air, in the world, and any ways of unit length.
+  void through(const glm::dvec3& place, std::span<const glm::dvec3> ways, std::span<float> shares) const;
 
   struct State; ///< for the files of this folder
   const State& state() const { return *state_; }
@@ -62,12 +66,15 @@ class SkyPacket {
   /// REQUIRES: start.
   const SkyPlaces& places() const { return places_; }
 
-  /// The share of the light that comes along each way past the casters, as they let a light's through; 0 where none is
-  /// asked for. REQUIRES: each way that is asked for leads off the triangle's plane, to the eye's side.
+  /// The share of the light that comes along each way past the casters, as they let a light's through, and past media;
+  /// 0 where none is asked for. REQUIRES: each way that is asked for leads off the triangle's plane, to the eye's side.
   std::array<float, SkyPlaces::kCount> through(const SkyWays& ways);
 
  private:
   struct Starts;
+  /// Of the lanes whose bits are set, where floats are not sure.
+  void traceExactly(const SkyWays& ways, unsigned lanesAsked, std::array<float, SkyPlaces::kCount>& shares) const;
+
   const TracedSky& sky_;
   SkyPlaces places_;
   std::unique_ptr<Starts> starts_;

@@ -15,14 +15,17 @@
 /// Exact answers for single points, many at a time, on all cores. Any thread.
 namespace gnomon {
 
+struct Medium;
+
 /// Inputs of the ray queries of one frame. All of it outlives the calls.
 struct TraceInput {
   const TracedScene& traced;
   const CameraView& camera;
   int width = 0; ///< of the frame, pixels
   int height = 0;
-  std::span<const Light> lights;       ///< effective
-  std::span<const NodeSwitches> nodes; ///< one a node of the file; empty = every node has the defaults
+  std::span<const Light> lights;          ///< effective
+  std::span<const NodeSwitches> nodes;    ///< one a node of the file; empty = every node has the defaults
+  std::span<const Medium* const> media{}; ///< volumes: they dim light that comes from everywhere, and no other
 };
 
 inline NodeSwitches switchesOf(const TraceInput& input, std::uint32_t instance) {

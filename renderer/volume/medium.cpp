@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "renderer/core/parallel.h"
+#include "renderer/volume/extinction_cells.h"
 
 namespace gnomon {
 
@@ -72,7 +73,12 @@ Bricks bricksOf(const DensityGrid& grid, const TransferFunction& function) {
 
 Medium makeMedium(std::shared_ptr<const DensityGrid> grid, TransferFunction function, const VolumeSpace& space) {
   Bricks bricks = bricksOf(*grid, function);
-  return {.grid = std::move(grid), .function = std::move(function), .space = space, .bricks = std::move(bricks)};
+  auto cells = std::make_shared<const ExtinctionCells>(extinctionCells(*grid, function, bricks));
+  return {.grid = std::move(grid),
+          .function = std::move(function),
+          .space = space,
+          .bricks = std::move(bricks),
+          .cells = std::move(cells)};
 }
 
 BrickPassage brickAt(const Medium& medium, const Ray& unitRay, double distance) {

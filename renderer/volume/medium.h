@@ -56,6 +56,8 @@ struct Bricks {
   std::vector<std::uint8_t> filled; ///< 0: no place in the brick takes any light
 };
 
+struct ExtinctionCells;
+
 /// What dims light where it passes: a grid, placed, with a transfer function.
 struct Medium {
   std::shared_ptr<const DensityGrid> grid;
@@ -65,6 +67,7 @@ struct Medium {
   bool castShadow = true;    ///< on surfaces and media, itself among them
   bool receiveShadow = true; ///< from surfaces and media, itself among them
   Bricks bricks{};
+  std::shared_ptr<const ExtinctionCells> cells{}; ///< its extinction, coarser
 };
 
 Medium makeMedium(std::shared_ptr<const DensityGrid> grid, TransferFunction function, const VolumeSpace& space);

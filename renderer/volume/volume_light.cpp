@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 
 #include "renderer/core/parallel.h"
 #include "renderer/volume/half.h"
@@ -98,6 +99,11 @@ glm::dvec4 interpolated(const VolumeLight& map, const glm::dvec3& unit) {
   return glm::dvec4(glm::mix(alongY(0), alongY(layer), share.z));
 }
 
+template <class T>
+bool isSameObject(const std::weak_ptr<T>& a, const std::weak_ptr<T>& b) {
+  return !a.owner_before(b) && !b.owner_before(a);
+}
+
 std::size_t bytesOf(const VolumeLight& map) {
   return map.texels.size() * sizeof(map.texels.front());
 }
@@ -123,7 +129,9 @@ VolumeLight makeVolumeLight(const VolumeLightInput& input) {
   forEach(numbers.size(), [&](std::size_t i) {
     const glm::dvec3 unit = latticePoint(i, input.size);
     const OwnWay own = input.towards ? ownWay(medium, unit, *input.towards) : OwnWay{};
-    numbers[i] = glm::dvec4(lightArriving(input, dimming, i, toWorld(medium.space, unit), own), own.meanExtinction);
+    glm::dvec3 light = lightArriving(input, dimming, i, toWorld(medium.space, unit), own);
+    if (input.around != nullptr) light += glm::pi<double>() * lightAt(*input.around, unit);
+    numbers[i] = glm::dvec4(light, own.meanExtinction);
   });
   glm::dvec4 full(0);
   for (const glm::dvec4& each : numbers) full = glm::max(full, each);
@@ -156,26 +164,27 @@ double volumeVisibility(std::span<const MappedMedium> media, const glm::dvec3& p
   return visibility;
 }
 
-VolumeLightKey::VolumeLightKey(const VolumeLightInput& input, std::string lights, std::string casters)
+VolumeLightKey::VolumeLightKey(const VolumeLightInput& input, std::string lights, std::string casters,
+                               std::weak_ptr<const void> environment)
     : chosen_(input.chosen),
       towards_(input.towards),
       size_(input.size),
       lights_(std::move(lights)),
-      casters_(std::move(casters)) {
+      casters_(std::move(casters)),
+      environment_(std::move(environment)) {
   for (const Medium* medium : input.media) {
     media_.push_back({medium->grid, medium->function, medium->space, medium->castShadow, medium->receiveShadow});
   }
 }
 
 bool VolumeLightKey::same(const Part& a, const Part& b) {
-  const bool sameGrid = !a.grid.owner_before(b.grid) && !b.grid.owner_before(a.grid);
-  return sameGrid && a.function == b.function && a.space == b.space && a.castShadow == b.castShadow &&
-         a.receiveShadow == b.receiveShadow;
+  return isSameObject(a.grid, b.grid) && a.function == b.function && a.space == b.space &&
+         a.castShadow == b.castShadow && a.receiveShadow == b.receiveShadow;
 }
 
 bool VolumeLightKey::operator==(const VolumeLightKey& other) const {
   return chosen_ == other.chosen_ && towards_ == other.towards_ && size_ == other.size_ && lights_ == other.lights_ &&
-         casters_ == other.casters_ &&
+         casters_ == other.casters_ && isSameObject(environment_, other.environment_) &&
          std::equal(media_.begin(), media_.end(), other.media_.begin(), other.media_.end(), same);
 }
 

@@ -30,8 +30,9 @@ struct Arrival {
 using ArrivalAt = std::function<Arrival(std::size_t point, const glm::dvec3& place)>;
 
 /// The light in a volume at the points of a lattice from face to face of the unit cube, x fastest. Red, green and blue:
-/// the light that arrives, in shares of `fullLight`. Alpha: the mean extinction that this volume alone has on the way
-/// towards the chosen light, in shares of `fullExtinction`, exact in a homogeneous medium.
+/// the light that arrives, in shares of `fullLight`; radiance from all around counts pi times. Alpha: the mean
+/// extinction that this volume alone has on the way towards the chosen light, in shares of `fullExtinction`, exact in a
+/// homogeneous medium.
 struct VolumeLight {
   glm::ivec3 size{0};            ///< points along each axis, at least 2
   std::vector<glm::vec4> texels; ///< 0..1, each number one that a 16-bit float can hold
@@ -46,6 +47,8 @@ struct VolumeLightInput {
   std::span<const ArrivalAt> lights{};
   std::optional<glm::dvec3> towards{}; ///< the directional light whose share is kept in alpha; none = 0
   glm::ivec3 size{2};                  ///< at least 2 each
+  /// Besides, radiance from all around, the mean over all directions, that arrives in the chosen one; null = none.
+  const VolumeLight* around = nullptr;
 };
 
 /// A point for each face between voxels, as far as there are no more than `most` along an axis. REQUIRES: most >= 2.
@@ -79,9 +82,14 @@ struct FrameVolumes {
   std::vector<std::shared_ptr<const VolumeLight>> lights; ///< parallel
   int light = -1;        ///< the frame's light that they shade surfaces from, a directional one; -1 = none
   glm::dvec3 towards{0}; ///< that light, unit length
-  glm::dvec3 ambient{0}; ///< radiance from all around
+  glm::dvec3 ambient{0}; ///< radiance from all around that is not in `lights`
 
   bool empty() const { return media.empty(); }
+  std::vector<const Medium*> all() const { ///< which live as long as `media`
+    std::vector<const Medium*> each;
+    for (const auto& medium : media) each.push_back(medium.get());
+    return each;
+  }
   std::vector<MappedMedium> mapped() const {
     std::vector<MappedMedium> all;
     for (std::size_t i = 0; i < media.size(); ++i) all.push_back({media[i].get(), lights[i].get()});
@@ -92,8 +100,10 @@ struct FrameVolumes {
 /// Everything that a light map depends on. Grids are the same where they are the same object.
 class VolumeLightKey {
  public:
-  /// `lights`, `casters`: texts that differ where the lights, or the surfaces that cast, differ.
-  VolumeLightKey(const VolumeLightInput& input, std::string lights, std::string casters);
+  /// `lights`, `casters`: texts that differ where the lights, or the surfaces that cast, differ. `environment`: the
+  /// same object where the rest of the lights is the same; it is not kept alive.
+  VolumeLightKey(const VolumeLightInput& input, std::string lights, std::string casters,
+                 std::weak_ptr<const void> environment = {});
 
   bool operator==(const VolumeLightKey& other) const;
 
@@ -112,6 +122,7 @@ class VolumeLightKey {
   std::optional<glm::dvec3> towards_;
   glm::ivec3 size_;
   std::string lights_, casters_;
+  std::weak_ptr<const void> environment_;
 };
 
 /// Light maps of earlier frames, the latest used ones, within a bound on their bytes. For one thread.

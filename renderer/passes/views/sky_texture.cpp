@@ -26,7 +26,8 @@ Result<SkyTexture> skyTexture(const PassInputs& inputs, const Shading& shading, 
   if (!numbers) return numbers.problems();
   const SampleGrid grid{inputs.width, inputs.height, surfaces.samplePositions};
   const ShownNumbers shown = inOrder(grid, *numbers);
-  const TraceInput rays{**scene, inputs.camera, inputs.width, inputs.height, *shading.spec.lights, inputs.nodes};
+  const std::vector<const Medium*> media = mediaOf(work);
+  const TraceInput rays{**scene, inputs.camera, inputs.width, inputs.height, *shading.spec.lights, inputs.nodes, media};
   const PicturePoints points(rays, grid, surfaces.numbers, shown, {});
   const SkyShadow shadow = skyShadow(points, skyLightOf(work.environment), shading.spec.environment.samples);
   sky.rays = shadow.rays;
