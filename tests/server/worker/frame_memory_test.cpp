@@ -91,6 +91,12 @@ TEST(FrameMemory, CountsTheEnvironment) {
   const std::size_t before = bytesOf(spec, scene);
   spec.environment.file = "sky.hdr";
   EXPECT_GE(bytesOf(spec, scene), before + 4 * (32 << 20));
+  // The glTF's own light, unless the studio is named.
+  spec.environment = {};
+  scene.environmentLight = 0;
+  EXPECT_GE(bytesOf(spec, scene), before + 4 * (32 << 20));
+  spec.environment.studio = Studio::even;
+  EXPECT_EQ(bytesOf(spec, scene), before);
 }
 
 TEST(FrameMemory, TheAtlasHasItsOwnSize) {
