@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "protocol/base/text.h"
 #include "renderer/scene/scene_image.h"
 
 namespace gnomon {
@@ -92,7 +93,7 @@ class FaceReader {
     }
     if (light.specularImageSize != side) {
       findings.repair(kOtherStatedSize, pointer + "/specularImageSize", std::to_string(side),
-                      std::to_string(light.specularImageSize));
+                      shortNumber(light.specularImageSize));
     }
     for (std::size_t level = 1; level < light.specularImages.size(); ++level) {
       const int right = level < 31 ? side >> level : 0;
