@@ -6,7 +6,7 @@ import { removePath } from './paths.mjs';
 // something else, or nothing, for which the frame would be refused.
 const kOfTheScene = [
   'camera', 'lights', 'nodes', 'animation', 'scene', 'materialVariant', 'motionFrom', 'volumes', 'debug',
-  'environment.file', 'shadow.depthRange', 'shadow.bias', 'shadow.filter.radius', 'ground.height', 'ground.size',
+  'environment.file', 'environment.light', 'shadow.depthRange', 'shadow.bias', 'shadow.filter.radius', 'ground.height', 'ground.size',
 ];
 
 export const withoutScene = (spec) => kOfTheScene.reduce(removePath, spec);

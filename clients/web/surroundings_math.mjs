@@ -5,11 +5,17 @@ import { getPath, removePath, setPath } from './paths.mjs';
 
 export const isPanorama = ({ name }) => /\.(hdr|exr)$/i.test(name);
 
-// What lights the scene from all around: a picture of the upload, a computed sky, or the studio without either.
-export const sourceOf = ({ spec }) => (getPath(spec, 'environment.file') ? 'file' : getPath(spec, 'environment.sky') ? 'sky' : 'studio');
+export const hasOwnLight = ({ summary }) => Number.isInteger(summary?.environmentLight);
+
+// What lights the scene from all around: a picture of the upload, a computed sky, a light of the glTF, or the studio. A
+// glTF's own light is there unless another is named.
+export function sourceOf({ spec, summary }) {
+  const named = ['file', 'sky', 'light', 'studio'].find((source) => getPath(spec, `environment.${source}`) !== undefined);
+  return named ?? (hasOwnLight({ summary }) ? 'light' : 'studio');
+}
 
 // Of another source: its intensity has another unit.
-const withoutSource = (spec) => ['environment.file', 'environment.sky', 'environment.intensity'].reduce(removePath, spec);
+const withoutSource = (spec) => ['environment.file', 'environment.sky', 'environment.light', 'environment.intensity'].reduce(removePath, spec);
 
 // Seen behind the scene, unless that was chosen.
 const seen = (spec) => (getPath(spec, 'environment.background') ? spec : setPath(spec, 'environment.background', 'environment'));
@@ -21,9 +27,14 @@ export const litByFile = ({ spec }, file) => withoutSun(setPath(withoutSource(se
 
 export const litBySky = (state) => withoutSun(setPath(withoutSource(seen(state.spec)), 'environment.sky', { sun: sunInForce(state) }));
 
-// Back to the studio, with a sun where the sky's or the picture's was.
+// By the glTF's own light, which has its own sun.
+export const litByOwnLight = ({ spec }) => withoutSun(removePath(withoutSource(seen(spec)), 'environment.studio'));
+
+// Back to the studio, with a sun where the sky's or the picture's was. Over a glTF's own light it must be named.
 export function litByStudio(state) {
-  const spec = removePath(withoutSource(state.spec), 'environment.background');
+  const plain = removePath(withoutSource(state.spec), 'environment.background');
+  const isNamed = !hasOwnLight(state) || getPath(plain, 'environment.studio');
+  const spec = isNamed ? plain : setPath(plain, 'environment.studio', 'even');
   const hasSun = !spec.lights || spec.lights[0]?.sun;
   return hasSun ? spec : { ...spec, lights: [...lightsWithSun({ spec: {}, report: null }, sunInForce(state)), ...spec.lights] };
 }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/base/bytes.h"
+#include "protocol/spec/frame_lights.h"
 
 namespace gnomon {
 
@@ -14,16 +15,19 @@ FrameSpec bakedParts(const FrameSpec& spec) {
   parts.nodes = spec.nodes;
   parts.environment = {.file = spec.environment.file,
                        .sky = spec.environment.sky,
+                       .light = spec.environment.light,
                        .rotationDegrees = spec.environment.rotationDegrees,
                        .intensity = spec.environment.intensity,
                        .extractSun = spec.environment.extractSun};
   if (spec.environment.shadows == EnvironmentShadows::rays) {
     parts.environment.shadows = spec.environment.shadows;
     parts.environment.samples = spec.environment.samples;
-    if (!spec.environment.file && !spec.environment.sky) {
+    if (isStudio(spec.environment)) {
       parts.ambient = spec.ambient;
       parts.environment.studio = spec.environment.studio;
     }
+  } else if (isStudio(spec.environment) && spec.environment.studio) {
+    parts.environment.studio = Studio::even; // named: the sun of the scene's own light does not shine
   }
   parts.scene = spec.scene;
   parts.materialVariant = spec.materialVariant;

@@ -21,6 +21,7 @@ SceneCounts sceneCounts(const SceneSummary& summary) {
     counts.voxels =
         static_cast<double>(summary.memory.volumes) / static_cast<double>(summary.volumeFiles.size() * sizeof(float));
   }
+  counts.environmentLight = summary.environmentLight;
   return counts;
 }
 
@@ -165,7 +166,9 @@ double referenceRays(const FrameSpec& spec, const std::vector<Light>& lights) {
 std::vector<Light> settledLights(const FrameSpec& spec, const SceneCounts& scene, DeviceKind device) {
   std::vector<Light> own;
   for (const LightType type : scene.lights) own.push_back({.type = type});
-  std::vector<Light> lights = lightsOf(spec, own, assumedSun(spec.environment));
+  FrameSpec sourced = spec;
+  sourced.environment = withSource(spec.environment, scene.environmentLight);
+  std::vector<Light> lights = lightsOf(sourced, own, assumedSun(sourced.environment));
   for (const int index : shadowingLights(lights, spec.shadowLightPolicy)) {
     Light& light = lights[static_cast<std::size_t>(index)];
     ShadowTechnique& technique = light.shadow->technique;

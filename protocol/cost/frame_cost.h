@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "protocol/report/replies.h"
@@ -14,10 +15,11 @@ namespace gnomon {
 
 /// What a scene brings to each of its frames.
 struct SceneCounts {
-  std::uint64_t triangles = 0;     ///< of the default glTF scene
-  std::vector<LightType> lights{}; ///< the scene's own; they count where a request names none
-  std::uint64_t holed = 0;         ///< triangles whose materials have holes, or let light through
-  double voxels = 262'144;         ///< of a volume, about: of floats, as large as its files are on average
+  std::uint64_t triangles = 0;           ///< of the default glTF scene
+  std::vector<LightType> lights{};       ///< the scene's own; they count where a request names none
+  std::uint64_t holed = 0;               ///< triangles whose materials have holes, or let light through
+  double voxels = 262'144;               ///< of a volume, about: of floats, as large as its files are on average
+  std::optional<int> environmentLight{}; ///< the image-based light that the glTF gives the scene
 };
 
 /// What draws, as far as costs differ.

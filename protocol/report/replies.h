@@ -86,6 +86,7 @@ struct SceneSummary {
   std::array<double, 3> boundsMax{};
   std::vector<CameraSummary> cameras{};
   std::vector<LightSummary> lights{};
+  std::optional<int> environmentLight{};
   std::vector<AnimationSummary> animations{};
   std::vector<std::string> materialVariants{};
   std::vector<std::string> volumeFiles{};

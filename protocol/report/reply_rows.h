@@ -30,7 +30,8 @@ inline constexpr auto kRows<MemorySummary> = replyRows(
     field<&MemorySummary::images>("Images, as if all were decoded; each is when a frame first needs it.",
                                   {.unit = "bytes"}),
     field<&MemorySummary::volumes>("Files of volumes, as they were uploaded.", {.unit = "bytes"}),
-    field<&MemorySummary::environments>("Files of environments, as they were uploaded and as if all were read.",
+    field<&MemorySummary::environments>("Files of environments and image-based lights, as they were uploaded and as if "
+                                        "all were read.",
                                         {.unit = "bytes"}),
     field<&MemorySummary::deformation>("Data from which skinned and morphed meshes are posed.", {.unit = "bytes"}),
     field<&MemorySummary::animations>("Keyframes, and what else is needed to pose the scene.", {.unit = "bytes"}),
@@ -63,6 +64,8 @@ inline constexpr auto kRows<SceneSummary> = replyRows(
     field<&SceneSummary::boundsMin>("Lower corner of the scene's bounding box.", {.unit = "metres"}),
     field<&SceneSummary::boundsMax>("Upper corner of the scene's bounding box.", {.unit = "metres"}),
     field<&SceneSummary::cameras>("Its cameras."), field<&SceneSummary::lights>("Its lights."),
+    field<&SceneSummary::environmentLight>("Index of the image-based light that lights it from all around unless a "
+                                           "frame's `environment` says otherwise; absent = it has none."),
     field<&SceneSummary::animations>("The file's animations, in the order of their indices."),
     field<&SceneSummary::materialVariants>("Names of the file's material variants, for `materialVariant`."),
     field<&SceneSummary::volumeFiles>("Names of the upload's .npy and .vdb files, which a frame's `volumes` may show."),
@@ -106,8 +109,11 @@ inline constexpr auto kRows<Limits> = replyRows(
     field<&Limits::maxVolumeVoxels>("A volume's grid.", {.unit = "voxels"}),
     field<&Limits::minEnvironmentWidth>("Least width of an environment's file, which is twice its height.",
                                         {.unit = "texels"}),
-    field<&Limits::maxEnvironmentWidth>("Greatest width of an environment's file.", {.unit = "texels"}),
-    field<&Limits::maxRadiance>("Greatest number in an environment's file."),
+    field<&Limits::maxEnvironmentWidth>(
+        "Greatest width of an environment's file, and four times the greatest side of a "
+        "face of an image-based light.",
+        {.unit = "texels"}),
+    field<&Limits::maxRadiance>("Greatest number in an environment."),
     field<&Limits::maxVariants>("Variants of one evaluation."),
     field<&Limits::maxPathFrames>("Cameras along the path of an evaluation."),
     field<&Limits::maxSequenceFrames>("Frames of one sequence."),

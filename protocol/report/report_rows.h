@@ -89,7 +89,9 @@ inline constexpr auto kRows<SunReport> = replyRows(
 template <>
 inline constexpr auto kRows<EnvironmentReport> = replyRows(
     "EnvironmentReport", "What was found in the environment.",
-    field<&EnvironmentReport::width>("Width of the file's picture; 0 = a computed sky.", {.unit = "texels"}),
+    field<&EnvironmentReport::width>("Width of the file's picture, or of the one that a light's cube was resampled to; "
+                                     "0 = a computed sky.",
+                                     {.unit = "texels"}),
     field<&EnvironmentReport::height>("Its height; 0 = a computed sky.", {.unit = "texels"}),
     field<&EnvironmentReport::meanRadiance>("Luminance of the file's picture, sun included: the mean over all "
                                             "directions, in its own unit; 0 = a computed sky."),
@@ -193,7 +195,7 @@ inline constexpr auto kRows<FrameReport> = rows(
     field<&FrameReport::counts>("How much was drawn."), field<&FrameReport::memory>("Memory on the device."),
     field<&FrameReport::passes>("Times and counts of each pass, in the order of drawing."),
     field<&FrameReport::stages>(
-        "Time of each stage: queue, load, upload, bake, environment (with `environment.file` or `sky`), volume "
+        "Time of each stage: queue, load, upload, bake, environment (where that is not the studio), volume "
         "(with `volumes`), survey, plan, shadow, shade, predict "
         "(with `debug.predictEdges`), reference (if a view asks for rays), sunHours (with that view), readback, "
         "encode.",

@@ -23,11 +23,13 @@ enum class Studio { lamps, even };
 enum class EnvironmentShadows { none, rays };
 enum class SunExtraction { auto_, none, removed };
 
-/// At most one of `file` and `sky`; with neither, the studio of `ambient`.
+/// At most one of `file`, `sky` and `light`. With none of them and without `studio`, the light of the frame's scene
+/// where the glTF has one, else the even studio of `ambient`.
 struct EnvironmentOptions {
   std::optional<std::string> file{};
   std::optional<Sky> sky{};
-  Studio studio = Studio::even;
+  std::optional<int> light{};
+  std::optional<Studio> studio{};
   double rotationDegrees = 0;
   std::optional<double> intensity{};
   EnvironmentBackground background = EnvironmentBackground::none;

@@ -52,32 +52,40 @@ inline constexpr auto kRows<Sky> = rows(
 
 template <>
 inline constexpr auto kRows<EnvironmentOptions> =
-    rows(
-        "EnvironmentOptions",
-        "Light from all around: a picture of all directions, a computed sky, or with neither the studio of `ambient`.",
-        field<&EnvironmentOptions::file>("Name of a file of the upload: .hdr (Radiance) or .exr, twice as wide as "
-                                         "high, linear radiance by longitude and latitude.",
-                                         {.minCount = 1, .maxCount = 255}),
-        field<&EnvironmentOptions::sky>("A computed sky instead of a file."),
-        field<&EnvironmentOptions::studio>("The neutral studio that lights the scene where there is neither a file nor "
-                                           "a sky; `ambient` is its brightness and its color."),
-        field<&EnvironmentOptions::rotationDegrees>(
-            "Turns the environment about the vertical axis, clockwise as seen from above. At 0 the middle of the "
-            "picture lies towards +X and its right half towards +Z.",
-            {.unit = "degrees", .range = kAzimuthRange}),
-        field<&EnvironmentOptions::intensity>(
-            "Its light is multiplied by this; absent = 1, and 3e-5 for a sky, so that the sun at noon is as bright as "
-            "a light's default intensity.",
-            {.range = kIntensityRange}),
-        field<&EnvironmentOptions::background>("What is shown where there is no surface."),
-        field<&EnvironmentOptions::shadows>("Whether the scene hides a part of its light. Rays take about as long as "
-                                            "a few soft shadows."),
-        field<&EnvironmentOptions::samples>("Rays a pixel that look for what is hidden; more are sent where they "
-                                            "disagree. Four times as many halve the noise and take four times as "
-                                            "long.",
-                                            {.range = {1, double(kLimits.maxRaySamples)}}),
-        field<&EnvironmentOptions::extractSun>("What becomes of the brightest disc of a file, or of the sun of a sky."))
-        .withAlternatives({"file", "sky"});
+    rows("EnvironmentOptions",
+         "Light from all around: a picture of all directions, a computed sky, or the studio of `ambient`. Without "
+         "`file`, "
+         "`sky`, `light` and `studio`: what the glTF gives its scene, else the even studio.",
+         field<&EnvironmentOptions::file>("Name of a file of the upload: .hdr (Radiance) or .exr, twice as wide as "
+                                          "high, linear radiance by longitude and latitude.",
+                                          {.minCount = 1, .maxCount = 255}),
+         field<&EnvironmentOptions::sky>("A computed sky instead of a file."),
+         field<&EnvironmentOptions::light>(
+             "Index of an image-based light of the glTF (EXT_lights_image_based); absent = "
+             "that of the frame's scene, unless `file`, `sky` or `studio` is there.",
+             {.range = {0, double(kLimits.maxImages)}}),
+         field<&EnvironmentOptions::studio>("The neutral studio that lights the scene where there is no file, sky or "
+                                            "light; `ambient` is its brightness and its color. Absent = even."),
+         field<&EnvironmentOptions::rotationDegrees>(
+             "Turns the environment about the vertical axis, clockwise as seen from above. At 0 the middle of a file's "
+             "picture lies towards +X and its right half towards +Z, and a light lies as the glTF turns it.",
+             {.unit = "degrees", .range = kAzimuthRange}),
+         field<&EnvironmentOptions::intensity>(
+             "Its light is multiplied by this, beside the glTF's own factor of a light; absent = 1, and 3e-5 for a "
+             "sky, so that the sun at noon is as bright as "
+             "a light's default intensity.",
+             {.range = kIntensityRange}),
+         field<&EnvironmentOptions::background>("What is shown where there is no surface."),
+         field<&EnvironmentOptions::shadows>("Whether the scene hides a part of its light. Rays take about as long as "
+                                             "a few soft shadows."),
+         field<&EnvironmentOptions::samples>("Rays a pixel that look for what is hidden; more are sent where they "
+                                             "disagree. Four times as many halve the noise and take four times as "
+                                             "long.",
+                                             {.range = {1, double(kLimits.maxRaySamples)}}),
+         field<&EnvironmentOptions::extractSun>(
+             "What becomes of the brightest disc of a file or a light, or of the sun of "
+             "a sky."))
+        .withAlternatives({"file", "sky", "light"});
 
 template <>
 inline constexpr auto kRows<Ground> = rows(

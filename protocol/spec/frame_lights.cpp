@@ -12,15 +12,11 @@
 namespace gnomon {
 namespace {
 
-bool hasSurroundings(const EnvironmentOptions& environment) {
-  return environment.file || environment.sky;
-}
-
 std::vector<Light> chosenLights(const FrameSpec& spec, std::span<const Light> ofScene) {
   if (spec.lights) return *spec.lights;
   std::vector<Light> lights(ofScene.begin(), ofScene.end());
   lights.resize(std::min(lights.size(), static_cast<std::size_t>(kLimits.maxLights)));
-  if (lights.empty() && !hasSurroundings(spec.environment)) {
+  if (lights.empty() && isStudio(spec.environment)) {
     Light sun;
     sun.sun.emplace();
     lights.push_back(sun);
@@ -46,9 +42,20 @@ std::vector<Light> lightsOf(const FrameSpec& spec, std::span<const Light> ofScen
   return lights;
 }
 
+bool isStudio(const EnvironmentOptions& environment) {
+  return !environment.file && !environment.sky && !environment.light;
+}
+
+EnvironmentOptions withSource(EnvironmentOptions environment, const std::optional<int>& ofScene) {
+  if (!isStudio(environment) || environment.studio) return environment;
+  environment.light = ofScene;
+  if (!ofScene) environment.studio = Studio::even;
+  return environment;
+}
+
 std::vector<Light> assumedSun(const EnvironmentOptions& environment) {
-  if (!hasSurroundings(environment) || environment.extractSun == SunExtraction::removed) return {};
-  if (environment.file && environment.extractSun == SunExtraction::none) return {};
+  if (isStudio(environment) || environment.extractSun == SunExtraction::removed) return {};
+  if (!environment.sky && environment.extractSun == SunExtraction::none) return {};
   return {Light{.direction = Vec3{0, -1, 0}, .angularDiameterDegrees = 0.53}};
 }
 

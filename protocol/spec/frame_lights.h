@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,9 +15,16 @@ namespace gnomon {
 /// The request's lights, else the first kLimits.maxLights of the scene's own, else one sun. What they leave open is
 /// set: their shadow is the frame's, a tile's size that of the light's type, a sun has azimuth and elevation. A sun by
 /// place and time has intensity 0 at night.
-/// Then come those of the environment; where it is a file or a sky, there is no other sun by default.
+/// Then come those of the environment; where that is no studio, there is no other sun by default.
 std::vector<Light> lightsOf(const FrameSpec& spec, std::span<const Light> ofScene,
                             std::span<const Light> ofEnvironment = {});
+
+/// Whether the studio is all that lights from all around: no file, sky or light is named.
+bool isStudio(const EnvironmentOptions& environment);
+
+/// With its source named: where the request names none, not even the studio, the light `ofScene` that the glTF gives
+/// the frame's scene, where it gives one.
+EnvironmentOptions withSource(EnvironmentOptions environment, const std::optional<int>& ofScene);
 
 /// What the environment of a frame may add to its lights, before it is read: one sun or none.
 std::vector<Light> assumedSun(const EnvironmentOptions& environment);

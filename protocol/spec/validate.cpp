@@ -106,9 +106,11 @@ void appendVolumeRules(const VolumeOptions& volume, const std::string& pointer, 
 }
 
 void appendEnvironmentRules(const EnvironmentOptions& environment, std::vector<BrokenRule>& broken) {
-  if (!environment.file || !environment.sky) return;
-  broken.push_back({invalidValue("/environment", "An environment is a file or a sky.", "file | sky", "both"),
-                    {"/environment/file", "/environment/sky"}});
+  const int named = environment.file.has_value() + environment.sky.has_value() + environment.light.has_value();
+  if (named < 2) return;
+  broken.push_back({invalidValue("/environment", "An environment is one of a file, a sky and a light.",
+                                 "file | sky | light", std::to_string(named) + " of them"),
+                    {"/environment/file", "/environment/sky", "/environment/light"}});
 }
 
 void appendEnvironmentViews(const FrameSpec& spec, std::vector<BrokenRule>& broken) {

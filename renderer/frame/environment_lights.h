@@ -1,6 +1,8 @@
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "protocol/base/result.h"
@@ -15,11 +17,24 @@ namespace gnomon {
 struct SettledEnvironment {
   std::vector<Light> lights;                 ///< its sun, if it has one: in the world, by the frame's settings
   std::optional<EnvironmentReport> report{}; ///< nothing = the studio
-  std::optional<SplitEnvironment> split{};   ///< of a file that was read just now
+  std::optional<SplitEnvironment> split{};   ///< of a file or light that was read just now
+  std::vector<std::string> warnings{};
 };
 
-/// Reads a file that no earlier frame named. Problems: at /environment/file where the upload does not have it or it is
-/// broken, at /environment/intensity where its sun is brighter than a light may be.
+/// A frame's environment with its source named: where the request names none, the image-based light of its scene if it
+/// has one.
+EnvironmentOptions sourcedEnvironment(const Scene& loaded, const FrameSpec& spec);
+
+/// The file or image-based light that these options name; null = they name none. Problems: at /environment/file or
+/// /environment/light, the scene does not have it.
+Result<std::shared_ptr<const EnvironmentFile>> environmentFileOf(const Scene& loaded,
+                                                                 const EnvironmentOptions& options);
+
+/// Where problems with what environmentFileOf gives belong.
+std::string placeOfSource(const EnvironmentOptions& options);
+
+/// Reads a file or light that no earlier frame named. Problems: those of environmentFileOf, at the same place where it
+/// is broken, and at /environment/intensity where its sun is brighter than a light may be.
 Result<SettledEnvironment> settleEnvironment(const Scene& loaded, const EnvironmentOptions& options);
 
 /// A turn about +Y: directions of the map from directions of the world, which see it turned clockwise from above.

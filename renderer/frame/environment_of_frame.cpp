@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "renderer/core/collect.h"
+#include "renderer/frame/environment_lights.h"
 
 namespace gnomon {
 
@@ -18,12 +19,13 @@ Result<FrameEnvironment> environmentOf(EnvironmentCache& cache, const Scene& loa
   environment.mapFromWorld = mapFromWorld(options.rotationDegrees);
   if (options.sky) {
     environment.environment = cache.get(*options.sky);
-  } else if (options.file) {
-    auto made = cache.get(loaded.environmentFiles.at(*options.file), options.extractSun, std::move(split));
-    if (!made) return placedAt("/environment/file", made.problems());
-    environment.environment = *std::move(made);
   } else {
-    return environment;
+    const auto file = environmentFileOf(loaded, options);
+    if (!file) return file.problems();
+    if (!*file) return environment;
+    auto made = cache.get(*file, options.extractSun, std::move(split));
+    if (!made) return placedAt(placeOfSource(options), made.problems());
+    environment.environment = *std::move(made);
   }
   environment.intensity = intensityOf(options);
   return environment;

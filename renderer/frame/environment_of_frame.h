@@ -8,7 +8,7 @@
 namespace gnomon {
 
 /// The environment of a frame, made now if need be, from the map that settling has read if it has. Problems at
-/// /environment/file.
+/// placeOfSource.
 Result<FrameEnvironment> environmentOf(EnvironmentCache& cache, SettledFrame& settled);
 
 /// The same of a scene and settled options; `split` where the file was read just now.

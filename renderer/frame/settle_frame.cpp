@@ -145,7 +145,9 @@ Status checkVolumes(const Scene& loaded, const ResolvedFrame& frame) {
 
 } // namespace
 
-Result<SettledFrame> settleFrame(const ScenePtr& loaded, const FrameSpec& spec, const RendererInfo* device) {
+Result<SettledFrame> settleFrame(const ScenePtr& loaded, const FrameSpec& asked, const RendererInfo* device) {
+  FrameSpec spec = asked;
+  spec.environment = sourcedEnvironment(*loaded, asked);
   ProblemList problems;
   const auto posed = collect(stagedScene(loaded, spec), problems);
   SettledFrame settled{loaded, posed.value_or(loaded), {}, {}, {}};
@@ -154,6 +156,8 @@ Result<SettledFrame> settleFrame(const ScenePtr& loaded, const FrameSpec& spec, 
   }
   ResolvedFrame& frame = settled.frame;
   frame = resolveFrame(*settled.scene, spec, problems, settled.environment.lights);
+  const auto& found = settled.environment.warnings;
+  frame.warnings.insert(frame.warnings.end(), found.begin(), found.end());
   if (device != nullptr) {
     collect(checkDevice(spec, *device), problems);
     frame.spec.device = device->device;

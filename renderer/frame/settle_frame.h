@@ -27,6 +27,6 @@ struct SettledFrame {
 /// none does, as for a bake. Whatever draws, plans, bakes or measures a frame begins with this. Problems: all that are
 /// known without drawing; not those of a plan (settlePlan), of files that drawing reads, and of light maps that become
 /// too large. Any thread.
-Result<SettledFrame> settleFrame(const ScenePtr& loaded, const FrameSpec& spec, const RendererInfo* device);
+Result<SettledFrame> settleFrame(const ScenePtr& loaded, const FrameSpec& asked, const RendererInfo* device);
 
 } // namespace gnomon

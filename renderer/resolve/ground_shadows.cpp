@@ -80,7 +80,7 @@ bool addShadows(const Aabb& casters, const Light& light, double height, Aabb& sh
 std::optional<Aabb> shadowsOnGround(const FrameSpec& spec, const SceneView& view, std::span<const NodeSwitches> nodes,
                                     double height) {
   const EnvironmentOptions& around = spec.environment;
-  const bool mayHaveSun = around.file || around.sky; // which is found later
+  const bool mayHaveSun = !isStudio(around); // which is found later
   if (!spec.volumes.empty() || mayHaveSun || around.shadows != EnvironmentShadows::none) return std::nullopt;
   const std::vector<Light> lights = lightsOf(spec, lightsOf(view));
   Aabb shadow;

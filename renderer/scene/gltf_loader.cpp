@@ -17,6 +17,7 @@
 #include "renderer/scene/geometry/mesh_build.h"
 #include "renderer/scene/geometry/mesh_source.h"
 #include "renderer/scene/graph/attachments.h"
+#include "renderer/scene/graph/image_based_lights.h"
 #include "renderer/scene/graph/node_tree.h"
 #include "renderer/scene/graph/scene_views.h"
 #include "renderer/scene/ground.h"
@@ -79,6 +80,13 @@ Result<std::shared_ptr<const Scene>> load(const SceneBundle& bundle, const Limit
   FlatScenes flat = flattenScenes(context, {tree, meshes, posed, scene->primitives}, !motion->animations.empty());
   if (findings.refused()) return findings.takeProblems();
   scene->scenes = std::move(flat.views);
+  scene->imageBasedLights = readImageBasedLights(context);
+  if (findings.refused()) return findings.takeProblems();
+  for (std::size_t i = 0; i < model.scenes.size(); ++i) {
+    const int light = model.scenes[i].imageBasedLight;
+    const bool isThere = light >= 0 && scene->imageBasedLights[static_cast<std::size_t>(light)];
+    scene->scenes[i].imageBasedLight = isThere ? light : -1;
+  }
   motion->parents = tree.parents;
   motion->order = tree.order;
   motion->locals = tree.locals;

@@ -206,7 +206,8 @@ struct SceneView {
   std::vector<Instance> instances;
   std::vector<SceneCamera> cameras;
   std::vector<SceneLight> lights;
-  Aabb bounds; ///< in the world
+  int imageBasedLight = -1; ///< index into Scene::imageBasedLights; -1 = none
+  Aabb bounds;              ///< in the world
   std::uint64_t triangles = 0;
 };
 
@@ -244,8 +245,9 @@ struct Scene {
   SceneImages images;                                        ///< decoded when a frame needs them
   std::map<std::string, std::shared_ptr<const Bytes>> grids; ///< files of the bundle that hold volumes, by their names
   std::map<std::string, std::shared_ptr<const EnvironmentFile>>
-      environmentFiles;         ///< those that are .hdr or .exr, by their names
-  std::vector<SceneNode> nodes; ///< as the file numbers them
+      environmentFiles;                                                 ///< those that are .hdr or .exr, by their names
+  std::vector<std::shared_ptr<const EnvironmentFile>> imageBasedLights; ///< as the file numbers them; null = left out
+  std::vector<SceneNode> nodes;                                         ///< as the file numbers them
   std::vector<LeftOutCamera> leftOutCameras;
   std::vector<PlacedNode> placedNodes;            ///< parallel; empty where there are no grids
   std::shared_ptr<const Deformation> deformation; ///< of skins and morph targets; nullptr = nothing deforms

@@ -125,6 +125,7 @@ MemorySummary memoryOf(const Scene& scene) {
   for (const auto& image : scene.images) memory.images += image->bytes();
   for (const auto& [name, file] : scene.grids) memory.volumes += file->size();
   for (const auto& [name, file] : scene.environmentFiles) memory.environments += file->memory();
+  for (const auto& light : scene.imageBasedLights) memory.environments += light ? light->memory() : 0;
   if (scene.deformation) memory.deformation = bytesIn(*scene.deformation);
   memory.structure =
       bytesIn(scene.primitives) + bytesIn(scene.materials) + bytesIn(scene.nodes) + bytesIn(scene.placedNodes);
@@ -174,6 +175,7 @@ SceneSummary summarize(const gltf::Model& model, const SceneBundle& bundle, cons
   for (const SceneLight& light : view.lights) {
     summary.lights.push_back({light.node, light.name, std::string(spell(light.light.type))});
   }
+  if (view.imageBasedLight >= 0) summary.environmentLight = view.imageBasedLight;
   summary.materialVariants = scene.variants;
   for (const auto& [name, file] : scene.grids) summary.volumeFiles.push_back(name);
   for (const auto& [name, file] : scene.environmentFiles) summary.environmentFiles.push_back(name);

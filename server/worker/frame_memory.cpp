@@ -127,8 +127,9 @@ std::size_t environmentBytes(const FrameSpec& spec, const SceneSummary& scene) {
   constexpr std::size_t kCells = 38u << 20;    ///< of the largest map that is summed, and that map
   constexpr std::size_t kTexel = 3 * sizeof(float);
   constexpr std::size_t kWidth = kLimits.maxEnvironmentWidth;
-  if (spec.environment.sky) return kPrepared + kSky;
-  if (!spec.environment.file) return 0;
+  const EnvironmentOptions environment = withSource(spec.environment, scene.environmentLight);
+  if (environment.sky) return kPrepared + kSky;
+  if (isStudio(environment)) return 0;
   const auto map = std::min(static_cast<std::size_t>(scene.memory.environments), kWidth * kWidth / 2 * kTexel);
   return kPrepared + kCells + map;
 }

@@ -280,7 +280,7 @@ rc::Gen<FrameSpec> anySpec() {
     std::erase_if(spec.views, [&](View view) { return view == View::sunHours && !spec.sunHours; });
     if (spec.views.empty()) spec.views = {View::color};
     for (VolumeOptions& volume : spec.volumes) mend(volume);
-    keepOnly(pick(0, 1), spec.environment.file, spec.environment.sky);
+    keepOnly(pick(0, 2), spec.environment.file, spec.environment.sky, spec.environment.light);
     if (spec.environment.sky) mend(spec.environment.sky->sun);
     mend(spec.camera);
     mend(spec.shadow, spec.atlas);

@@ -110,7 +110,7 @@ void addPictureFlags(CLI::App& command, SpecArguments& arguments, std::vector<st
             arguments.environment = text;
           },
           "What lights the scene from all around: an .hdr or .exr file, which goes with the scene; sky, whose sun is "
-          "that of --sun; or studio, as without this flag")
+          "that of --sun; or studio, as without this flag where the glTF has no image-based light")
       ->type_name("FILE|sky|studio")
       ->group("Picture");
   const std::string cameraSays =

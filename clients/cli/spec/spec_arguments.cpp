@@ -13,6 +13,7 @@
 #include "protocol/base/text.h"
 #include "protocol/json/json_codec.h"
 #include "protocol/json/json_source.h"
+#include "protocol/spec/environment_rows.h"
 #include "protocol/spec/limits.h"
 
 namespace gnomon::cli {
@@ -112,6 +113,8 @@ std::string replaceEnvironment(Json& spec, const std::string& text) {
   if (!environment.is_object()) environment = Json::object();
   const bool isWord = std::find(kEnvironmentWords.begin(), kEnvironmentWords.end(), text) != kEnvironmentWords.end();
   environment.erase("file");
+  environment.erase("light");
+  if (text == "studio" && !environment.contains("studio")) environment["studio"] = spell(Studio::even);
   if (text != "sky") environment.erase("sky");
   if (text == "sky" && !environment.contains("sky")) environment["sky"] = Json::object();
   if (!isWord) environment["file"] = std::filesystem::path(text).filename().string();

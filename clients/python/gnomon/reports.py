@@ -256,7 +256,8 @@ class EnvironmentReport(TypedDict, total=False):
     """What was found in the environment.
 
     width:
-        Width of the file's picture; 0 = a computed sky. Unit: texels.
+        Width of the file's picture, or of the one that a light's cube was resampled to; 0 = a computed sky. Unit:
+        texels.
     height:
         Its height; 0 = a computed sky. Unit: texels.
     meanRadiance:
@@ -486,7 +487,7 @@ class FrameReport(TypedDict, total=False):
     passes:
         Times and counts of each pass, in the order of drawing.
     stages:
-        Time of each stage: queue, load, upload, bake, environment (with `environment.file` or `sky`), volume (with
+        Time of each stage: queue, load, upload, bake, environment (where that is not the studio), volume (with
         `volumes`), survey, plan, shadow, shade, predict (with `debug.predictEdges`), reference (if a view asks for
         rays), sunHours (with that view), readback, encode. Unit: milliseconds.
     warnings:
@@ -552,7 +553,7 @@ class MemorySummary(TypedDict, total=False):
     volumes:
         Files of volumes, as they were uploaded. Unit: bytes.
     environments:
-        Files of environments, as they were uploaded and as if all were read. Unit: bytes.
+        Files of environments and image-based lights, as they were uploaded and as if all were read. Unit: bytes.
     deformation:
         Data from which skinned and morphed meshes are posed. Unit: bytes.
     animations:
@@ -661,6 +662,9 @@ class SceneSummary(TypedDict, total=False):
         Its cameras.
     lights:
         Its lights.
+    environmentLight:
+        Index of the image-based light that lights it from all around unless a frame's `environment` says otherwise;
+        absent = it has none.
     animations:
         The file's animations, in the order of their indices.
     materialVariants:
@@ -698,6 +702,7 @@ class SceneSummary(TypedDict, total=False):
     boundsMax: List[float]
     cameras: List["CameraSummary"]
     lights: List["LightSummary"]
+    environmentLight: int
     animations: List["AnimationSummary"]
     materialVariants: List[str]
     volumeFiles: List[str]
@@ -781,9 +786,10 @@ class Limits(TypedDict, total=False):
     minEnvironmentWidth:
         Least width of an environment's file, which is twice its height. Unit: texels.
     maxEnvironmentWidth:
-        Greatest width of an environment's file. Unit: texels.
+        Greatest width of an environment's file, and four times the greatest side of a face of an image-based light.
+        Unit: texels.
     maxRadiance:
-        Greatest number in an environment's file.
+        Greatest number in an environment.
     maxVariants:
         Variants of one evaluation.
     maxPathFrames:

@@ -647,23 +647,28 @@ class Sky:
 
 @dataclass
 class EnvironmentOptions:
-    """Light from all around: a picture of all directions, a computed sky, or with neither the studio of `ambient`.
+    """Light from all around: a picture of all directions, a computed sky, or the studio of `ambient`. Without `file`,
+    `sky`, `light` and `studio`: what the glTF gives its scene, else the even studio.
 
     file:
         Name of a file of the upload: .hdr (Radiance) or .exr, twice as wide as high, linear radiance by longitude
         and latitude.
     sky:
         A computed sky instead of a file.
+    light:
+        Index of an image-based light of the glTF (EXT_lights_image_based); absent = that of the frame's scene,
+        unless `file`, `sky` or `studio` is there.
     studio:
-        The neutral studio that lights the scene where there is neither a file nor a sky; `ambient` is its
-        brightness and its color. lamps = a dim room with a lamp overhead and three around the scene; even = the
-        same all around, brighter above than at the sides and below. Default: "even".
+        The neutral studio that lights the scene where there is no file, sky or light; `ambient` is its brightness
+        and its color. Absent = even. lamps = a dim room with a lamp overhead and three around the scene; even = the
+        same all around, brighter above than at the sides and below.
     rotationDegrees:
-        Turns the environment about the vertical axis, clockwise as seen from above. At 0 the middle of the picture
-        lies towards +X and its right half towards +Z. Unit: degrees. Default: 0.0.
+        Turns the environment about the vertical axis, clockwise as seen from above. At 0 the middle of a file's
+        picture lies towards +X and its right half towards +Z, and a light lies as the glTF turns it. Unit: degrees.
+        Default: 0.0.
     intensity:
-        Its light is multiplied by this; absent = 1, and 3e-5 for a sky, so that the sun at noon is as bright as a
-        light's default intensity.
+        Its light is multiplied by this, beside the glTF's own factor of a light; absent = 1, and 3e-5 for a sky, so
+        that the sun at noon is as bright as a light's default intensity.
     background:
         What is shown where there is no surface. none = `background`, as without an environment; environment = the
         environment, exposed and tone mapped as the scene is; blurred = the environment out of focus. Default:
@@ -676,13 +681,14 @@ class EnvironmentOptions:
         Rays a pixel that look for what is hidden; more are sent where they disagree. Four times as many halve the
         noise and take four times as long. Default: 4.
     extractSun:
-        What becomes of the brightest disc of a file, or of the sun of a sky. auto = a bright disc becomes a
-        directional light with its color, size and shadow; none = it stays in the picture; removed = it is taken
-        out, and no light is added: what a report's `spec` says whose `lights` has it. Default: "auto".
+        What becomes of the brightest disc of a file or a light, or of the sun of a sky. auto = a bright disc
+        becomes a directional light with its color, size and shadow; none = it stays in the picture; removed = it is
+        taken out, and no light is added: what a report's `spec` says whose `lights` has it. Default: "auto".
     """
 
     file: Optional[str] = None
     sky: Optional[Union["Sky", Json]] = None
+    light: Optional[int] = None
     studio: Optional[Literal["lamps", "even"]] = None
     rotationDegrees: Optional[float] = None
     intensity: Optional[float] = None

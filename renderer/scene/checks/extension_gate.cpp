@@ -10,6 +10,7 @@ namespace gnomon {
 namespace {
 
 constexpr std::string_view kSupported[] = {"CESIUM_RTC",
+                                           "EXT_lights_image_based",
                                            "EXT_mesh_gpu_instancing",
                                            "EXT_meshopt_compression",
                                            "EXT_texture_webp",

@@ -53,6 +53,7 @@ constexpr GltfField kFields[] = {
 
     {"asset", "version", string, {}, true},
     {"root.extensions", "KHR_lights_punctual", object, "lights"},
+    {"root.extensions", "EXT_lights_image_based", object, "imageBasedLights"},
     {"root.extensions", "KHR_materials_variants", object, "variants"},
     {"root.extensions", "CESIUM_RTC", object, "rtc"},
     {.owner = "rtc", .key = "center", .kind = numbers, .required = true, .length = 3},
@@ -61,6 +62,9 @@ constexpr GltfField kFields[] = {
 
     {"scene", "name", string},
     {"scene", "nodes", references, "nodes"},
+    {"scene", "extensions", object, "scene.extensions"},
+    {"scene.extensions", "EXT_lights_image_based", object, "scene.light"},
+    {"scene.light", "light", reference, "imageBasedLights", true},
 
     {"node", "name", string},
     {"node", "children", references, "nodes"},
@@ -217,6 +221,24 @@ constexpr GltfField kFields[] = {
     {"light", "spot", object, "spot"},
     {.owner = "spot", .key = "innerConeAngle", .kind = number, .min = 0, .max = std::numbers::pi / 2},
     above0("spot", "outerConeAngle", false, std::numbers::pi / 2),
+
+    {"imageBasedLights", "lights", objects, "imageBasedLight", true},
+    {"imageBasedLight", "name", string},
+    {.owner = "imageBasedLight", .key = "rotation", .kind = numbers, .min = -1, .max = 1, .length = 4},
+    {.owner = "imageBasedLight", .key = "intensity", .kind = number, .min = 0},
+    {.owner = "imageBasedLight",
+     .key = "irradianceCoefficients",
+     .kind = numberRows,
+     .required = true,
+     .length = 3,
+     .rows = 9},
+    {.owner = "imageBasedLight",
+     .key = "specularImages",
+     .kind = referenceRows,
+     .of = "images",
+     .required = true,
+     .length = 6},
+    {.owner = "imageBasedLight", .key = "specularImageSize", .kind = number, .required = true, .min = 0},
 
     {"skin", "name", string},
     {"skin", "joints", references, "nodes", true},

@@ -13,11 +13,13 @@ enum class FieldKind {
   number,
   integer, ///< a whole number
   string,
-  numbers, ///< an array of `length` numbers
+  numbers,    ///< an array of `length` numbers
+  numberRows, ///< an array of `rows` such arrays
   strings,
-  reference,    ///< an index into the root array `of`
-  references,   ///< an array of them, none twice
-  referenceMap, ///< an object whose values are references
+  reference,     ///< an index into the root array `of`
+  references,    ///< an array of them, none twice
+  referenceRows, ///< an array of arrays of `length` of them
+  referenceMap,  ///< an object whose values are references
   referenceMaps,
   integerMap, ///< an object whose values are whole numbers
   object,     ///< described by the rows whose owner is `of`
@@ -34,7 +36,8 @@ struct GltfField {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   bool minExcluded = false;
-  std::size_t length = 0;
+  std::size_t length = 0;        ///< 0 = any
+  std::size_t rows = 0;          ///< 0 = any
   std::string_view allowed = {}; ///< of integers and strings: the values, with a space between each two
   bool noDefault = false;        ///< another value than those does not count as if the member were not there
 };

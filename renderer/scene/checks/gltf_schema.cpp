@@ -80,9 +80,20 @@ constexpr std::array kParts{Part{"accessor", kPartLeftOut},
                             Part{"buffer", kPartLeftOut},
                             Part{"camera", "the camera is left out"},
                             Part{"light", "the light is left out"},
+                            Part{"imageBasedLight", "the light is left out"},
                             Part{"animation", "the animation is left out"},
                             Part{"channel", "the animation's channel is left out"},
                             Part{"animation.sampler", "the animation's channels that use it are left out"}};
+
+/// Arrays of the root's extensions that indices point into, by the name that they have in gltf_fields.cpp.
+struct ExtensionArray {
+  std::string_view extension;
+  std::string_view key;
+  std::string_view name;
+};
+constexpr std::array kExtensionArrays{ExtensionArray{"KHR_lights_punctual", "lights", "lights"},
+                                      ExtensionArray{"KHR_materials_variants", "variants", "variants"},
+                                      ExtensionArray{"EXT_lights_image_based", "lights", "imageBasedLights"}};
 
 /// Of a range; 1 where it has one end.
 constexpr double kNumberRounding = 1e-4;
@@ -111,10 +122,9 @@ class SchemaCheck {
       if (field.owner.ends_with(".extensions")) placed_.insert(std::string(field.key));
       if (field.owner == "root" && field.kind == FieldKind::objects) sizes_[field.key] = sizeOf(document, field.key);
     }
-    for (const auto& [extension, key] :
-         {std::pair("KHR_lights_punctual", "lights"), std::pair("KHR_materials_variants", "variants")}) {
-      const json::json_pointer holder = json::json_pointer("/extensions") / extension;
-      if (document.contains(holder)) sizes_[key] = sizeOf(document[holder], key);
+    for (const ExtensionArray& each : kExtensionArrays) {
+      const json::json_pointer holder = json::json_pointer("/extensions") / std::string(each.extension);
+      if (document.contains(holder)) sizes_[each.name] = sizeOf(document[holder], each.key);
     }
   }
 
@@ -209,7 +219,10 @@ class SchemaCheck {
       case FieldKind::references:
       case FieldKind::referenceMaps:
       case FieldKind::objects:
-        return checkArray(field, value, pointer);
+        return checkArray(field, value, pointer, field.length);
+      case FieldKind::numberRows:
+      case FieldKind::referenceRows:
+        return checkArray(field, value, pointer, field.rows);
     }
   }
 
@@ -255,10 +268,11 @@ class SchemaCheck {
     for (auto& [key, each] : value.items()) (this->*check)(field, each, pointerTo(pointer, key));
   }
 
-  void checkArray(const GltfField& field, json& value, const std::string& pointer) {
+  /// `length`: 0 = any.
+  void checkArray(const GltfField& field, json& value, const std::string& pointer, std::size_t length) {
     if (!value.is_array()) return wrongType(pointer, "an array", value);
-    if (field.length != 0 && value.size() != field.length) {
-      findings_->invalid(pointer, "The array has the wrong length.", std::to_string(field.length),
+    if (length != 0 && value.size() != length) {
+      findings_->invalid(pointer, "The array has the wrong length.", std::to_string(length),
                          std::to_string(value.size()));
     }
     if (value.empty()) findings_->repair(kEmptyArray, pointer);
@@ -282,6 +296,12 @@ class SchemaCheck {
             value[i] = nullptr;
           }
           break;
+        case FieldKind::numberRows:
+          checkRow(field, value[i], at, &SchemaCheck::checkNumber);
+          break;
+        case FieldKind::referenceRows:
+          checkRow(field, value[i], at, &SchemaCheck::checkReference);
+          break;
         case FieldKind::referenceMaps:
           checkMap(field, value[i], at, &SchemaCheck::checkReference);
           break;
@@ -292,6 +312,17 @@ class SchemaCheck {
     if (field.kind == FieldKind::references) {
       value.erase(std::remove(value.begin(), value.end(), nullptr), value.end());
     }
+  }
+
+  /// `check`: of each of its values.
+  void checkRow(const GltfField& field, json& value, const std::string& pointer,
+                void (SchemaCheck::*check)(const GltfField&, json&, const std::string&)) {
+    if (!value.is_array()) return wrongType(pointer, "an array", value);
+    if (value.size() != field.length) {
+      findings_->invalid(pointer, "The array has the wrong length.", std::to_string(field.length),
+                         std::to_string(value.size()));
+    }
+    for (std::size_t i = 0; i < value.size(); ++i) (this->*check)(field, value[i], pointerTo(pointer, i));
   }
 
   /// Puts into the place of a faulty part why it is left out, and its name.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -121,8 +122,20 @@ struct PunctualLight {
 
 using Attributes = std::map<std::string, int>; ///< accessors by name
 
+/// Of EXT_lights_image_based.
+struct ImageBasedLight {
+  std::string name;
+  std::string fault; ///< why it is left out; empty = it is sound
+  glm::dvec4 rotation{0, 0, 0, 1};
+  double intensity = 1;
+  std::array<glm::dvec3, 9> irradianceCoefficients{};
+  std::vector<std::array<int, 6>> specularImages; ///< images of each level
+  double specularImageSize = 0;
+};
+
 struct Scene {
   std::vector<int> nodes;
+  int imageBasedLight = -1;
 };
 
 struct Node {
@@ -280,6 +293,7 @@ struct Model {
   std::vector<Material> materials;
   std::vector<Camera> cameras;
   std::vector<PunctualLight> lights;
+  std::vector<ImageBasedLight> imageBasedLights;
   std::vector<Skin> skins;
   std::vector<Animation> animations;
   std::vector<std::string> variants; ///< names, KHR_materials_variants

@@ -186,6 +186,32 @@ gltf::PunctualLight readLight(const json& source) {
   return light;
 }
 
+gltf::Scene readScene(const json& source) {
+  gltf::Scene scene{indicesAt(source, "nodes")};
+  if (const json* light = extensionOf(source, "EXT_lights_image_based")) {
+    scene.imageBasedLight = (*light)["light"].get<int>();
+  }
+  return scene;
+}
+
+gltf::ImageBasedLight readImageBasedLight(const json& source) {
+  gltf::ImageBasedLight light;
+  light.name = nameAt(source);
+  light.fault = faultOf(source);
+  if (!light.fault.empty()) return light;
+  light.rotation = vectorAt<4>(source, "rotation").value_or(light.rotation);
+  light.intensity = source.value("intensity", light.intensity);
+  const json& coefficients = source["irradianceCoefficients"];
+  for (std::size_t i = 0; i < light.irradianceCoefficients.size(); ++i) {
+    for (int channel = 0; channel < 3; ++channel) {
+      light.irradianceCoefficients[i][channel] = coefficients[i][static_cast<std::size_t>(channel)].get<double>();
+    }
+  }
+  light.specularImages = source["specularImages"].get<std::vector<std::array<int, 6>>>();
+  light.specularImageSize = source["specularImageSize"].get<double>();
+  return light;
+}
+
 gltf::Skin readSkin(const json& source) {
   return {indicesAt(source, "joints"), source.value("inverseBindMatrices", -1)};
 }
@@ -221,7 +247,7 @@ gltf::Animation readAnimation(const json& source) {
 gltf::Model readModel(json document) {
   gltf::Model model;
   model.scene = document.value("scene", -1);
-  model.scenes = listAt(document, "scenes", [](const json& scene) { return gltf::Scene{indicesAt(scene, "nodes")}; });
+  model.scenes = listAt(document, "scenes", readScene);
   model.nodes = listAt(document, "nodes", readNode);
   if (const json* rtc = extensionOf(document, "CESIUM_RTC")) model.center = *vectorAt<3>(*rtc, "center");
   model.meshes = listAt(document, "meshes", readMesh);
@@ -239,6 +265,9 @@ gltf::Model readModel(json document) {
   model.cameras = listAt(document, "cameras", readCamera);
   if (const json* lights = extensionOf(document, "KHR_lights_punctual")) {
     model.lights = listAt(*lights, "lights", readLight);
+  }
+  if (const json* lights = extensionOf(document, "EXT_lights_image_based")) {
+    model.imageBasedLights = listAt(*lights, "lights", readImageBasedLight);
   }
   model.skins = listAt(document, "skins", readSkin);
   model.animations = listAt(document, "animations", readAnimation);

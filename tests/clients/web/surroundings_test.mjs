@@ -10,7 +10,7 @@ import { sunInForce, withSun } from '../../../clients/web/light_math.mjs';
 import { withoutScene } from '../../../clients/web/scene_spec.mjs';
 import { draftSpec } from '../../../clients/web/spec.mjs';
 import { createStore } from '../../../clients/web/store.mjs';
-import { isPanorama, litByFile, litBySky, litByStudio, sourceOf } from '../../../clients/web/surroundings_math.mjs';
+import { isPanorama, litByFile, litByOwnLight, litBySky, litByStudio, sourceOf } from '../../../clients/web/surroundings_math.mjs';
 
 const kSun = { azimuthDegrees: 200, elevationDegrees: 30 };
 const kLamp = { type: 'point', position: [0, 2, 0] };
@@ -42,6 +42,20 @@ test('a picture has its own sun and is seen; the lights of the scene stay', () =
   assert.equal(litByFile(stateOf({ environment: { background: 'blurred' } }), 'a.hdr').environment.background, 'blurred');
   assert.deepEqual(litByStudio(stateOf(spec)).environment, { rotationDegrees: 20 });
   assert.deepEqual([spec, litBySky(stateOf({})), {}].map((each) => sourceOf({ spec: each })), ['file', 'sky', 'studio']);
+});
+
+test('a glTF’s own light is the source unless another is named', () => {
+  const own = (spec) => stateOf(spec, { environmentLight: 0 });
+  assert.deepEqual([{}, { environment: { studio: 'even' } }, { environment: { sky: {} } }].map((spec) => sourceOf(own(spec))), ['light', 'studio', 'sky']);
+  assert.equal(sourceOf(stateOf({ environment: { light: 1 } })), 'light');
+  const studio = litByStudio(own({ environment: { background: 'environment' } }));
+  assert.deepEqual(studio.environment, { studio: 'even' });
+  assert.deepEqual(litByStudio(own({ environment: { studio: 'lamps', file: 'a.hdr' } })).environment, { studio: 'lamps' });
+  const back = litByOwnLight(own({ ...kByHand, environment: { studio: 'even', intensity: 2 } }));
+  assert.deepEqual(back, { lights: [kLamp], environment: { background: 'environment' } });
+  const without = createStore(stateOf({}));
+  fieldOf('environment').choose('light', without);
+  assert.deepEqual(without.state.spec, {});
 });
 
 test('the sun of a picture is no light of the user’s own', () => {

@@ -125,6 +125,11 @@ TEST(BakeJson, WhatOnlyThePictureDependsOnDoesNotChangeTheKey) {
     EXPECT_NE(bakeKey("scene", specOf(other)), key) << other;
   }
   EXPECT_NE(bakeKey("another", {}), key);
+  // The studio instead of the glTF's own light, whose sun would be a light; which one is seen in the picture alone.
+  const std::string studio = bakeKey("scene", specOf(R"({"environment": {"studio": "even"}})"));
+  EXPECT_NE(studio, key);
+  EXPECT_EQ(bakeKey("scene", specOf(R"({"environment": {"studio": "lamps"}})")), studio);
+  EXPECT_NE(bakeKey("scene", specOf(R"({"environment": {"light": 0}})")), key);
 }
 
 TEST(BakeKey, RaysToTheEnvironmentChangeItOnlyWhereTheyAreAskedFor) {

@@ -218,12 +218,17 @@ TEST(Validate, NoValueOfATransferFunctionComesTwice) {
   EXPECT_THAT(wrongIn(spec), ElementsAre("/volumes/0/transferFunction/1/value"));
 }
 
-TEST(Validate, AnEnvironmentIsAFileOrASky) {
+TEST(Validate, AnEnvironmentIsOneOfAFileASkyAndALight) {
   FrameSpec spec;
   spec.environment.file = "a.hdr";
   EXPECT_THAT(wrongIn(spec), IsEmpty());
   spec.environment.sky.emplace();
   EXPECT_THAT(wrongIn(spec), ElementsAre("/environment"));
+  spec.environment.file.reset();
+  spec.environment.light = 0;
+  EXPECT_THAT(wrongIn(spec), ElementsAre("/environment"));
+  spec.environment.sky.reset();
+  EXPECT_THAT(wrongIn(spec), IsEmpty());
 }
 
 TEST(Validate, ATileFitsTheAtlas) {

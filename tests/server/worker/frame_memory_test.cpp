@@ -92,6 +92,12 @@ TEST(FrameMemory, CountsTheEnvironment) {
   spec.environment.file = "sky.hdr";
   EXPECT_GE(bytesOf(spec, scene), before + (32 << 20) + (50 << 20)) << "and what is prepared";
   EXPECT_LT(bytesOf(spec, scene), before + (32 << 20) + (70 << 20));
+  // The glTF's own light, unless the studio is named.
+  spec.environment = {};
+  scene.environmentLight = 0;
+  EXPECT_GE(bytesOf(spec, scene), before + (32 << 20) + (50 << 20));
+  spec.environment.studio = Studio::even;
+  EXPECT_EQ(bytesOf(spec, scene), before);
 }
 
 TEST(FrameMemory, CountsWhatIsHiddenOfTheEnvironment) {
