@@ -9,8 +9,10 @@ namespace gnomon {
 PixelPlaces::PixelPlaces(std::uint32_t together, std::uint32_t most) {
   const std::uint32_t own = std::bit_ceil(together);
   for (std::uint32_t ray = 0; ray < most; ++ray) {
-    const SquarePlace place = sequencePlace(ray % own + ray / own * own * static_cast<std::uint32_t>(shifts_.size()));
-    places_.push_back({place.x, place.y});
+    const SquarePlace place = sequencePlace(ray);
+    const SquarePlace within = sequencePlace(ray / own);
+    const int finer = std::countr_zero(own) + 6;
+    places_.push_back({place.x ^ within.x >> finer, place.y ^ within.y >> finer});
   }
   for (std::uint32_t i = 0; i < shifts_.size(); ++i) {
     const std::uint32_t x = i & 7;

@@ -8,8 +8,8 @@ namespace gnomon {
 
 /// Places of the unit square for the rays of each pixel, in units of 2^-32. Each pixel of a square of 8 x 8 has those
 /// of a block of Sobol's sequence: its rays are even over the square, and lie between those of the other pixels,
-/// already of 2 x 2 and of 4 x 4 pixels (Keller and Heidrich, "Interleaved Sampling", 2001). Later rays go between all
-/// of these.
+/// already of 2 x 2 and of 4 x 4 pixels (Keller and Heidrich, "Interleaved Sampling", 2001). Later rays of a pixel are
+/// even over the square, too, whether or not those around send any: they go close to where others' first rays go.
 class PixelPlaces {
  public:
   /// `together`: how many rays each pixel sends at first; `most`: in all.

@@ -73,6 +73,46 @@ void setSurfacesIn(const PicturePoints& points, const SquarePlaceOf& place, SkyS
   if (waiting.count > 0) put();
 }
 
+constexpr float kTurnsLittle = 0.985f; ///< cosine between a normal of a surface and that in the middle of a square
+constexpr float kStepFlat = 0.0025f;   ///< squared sine of the way from a pixel to the next
+
+/// Whether each pixel shows what the next to the right and the next above show, and normals turn little: then any two
+/// show the same surface as sky_square.cpp asks.
+bool showsOne(const SkySquare& square, const SquarePlaceOf& place) {
+  const glm::ivec2 low(place.all.x, place.all.y);
+  const glm::ivec2 size(place.all.width, place.all.height);
+  const std::size_t middle = place.at(low + size / 2);
+  int all = -1;
+  for (int y = 0; y < size.y; ++y) {
+    const std::size_t row = place.at({low.x, low.y + y});
+    for (std::size_t i = row; i < row + static_cast<std::size_t>(size.x); ++i) {
+      const float cosine = square.normal[0][i] * square.normal[0][middle] +
+                           square.normal[1][i] * square.normal[1][middle] +
+                           square.normal[2][i] * square.normal[2][middle];
+      all &= square.shows[i] & (cosine >= kTurnsLittle ? -1 : 0);
+    }
+  }
+  if (all == 0) return false;
+  const auto stepsFrom = [&](std::size_t i, std::size_t next) {
+    float along = 0;
+    float squared = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float way = square.point[axis][next] - square.point[axis][i];
+      along += way * square.normal[axis][i];
+      squared += way * way;
+    }
+    return along * along <= kStepFlat * squared ? -1 : 0;
+  };
+  for (int y = 0; y < size.y; ++y) {
+    const std::size_t row = place.at({low.x, low.y + y});
+    const auto width = static_cast<std::size_t>(size.x);
+    for (std::size_t i = row; i + 1 < row + width; ++i) all &= stepsFrom(i, i + 1);
+    if (y + 1 == size.y) continue;
+    for (std::size_t i = row; i < row + width; ++i) all &= stepsFrom(i, i + SkySquare::kWidth);
+  }
+  return all != 0;
+}
+
 SkySquare skySquare(const PicturePoints& points, const SkyShares& shares, const SquarePlaceOf& place) {
   SkySquare square;
   for (auto& share : square.share) std::fill_n(share, SkySquare::kCount, 1.0f);
@@ -84,6 +124,8 @@ SkySquare skySquare(const PicturePoints& points, const SkyShares& shares, const 
     std::fill_n(square.point[axis], SkySquare::kCount, 0.0f);
     std::fill_n(square.normal[axis], SkySquare::kCount, axis == 0 ? 1.0f : 0.0f);
   }
+  int rays = 0;
+  float noise = 0;
   for (int y = place.all.y; y < place.all.y + place.all.height; ++y) {
     for (int x = place.all.x; x < place.all.x + place.all.width; ++x) {
       const std::uint32_t pixel = shares.grid.numberOf({x, y});
@@ -95,10 +137,17 @@ SkySquare skySquare(const PicturePoints& points, const SkyShares& shares, const 
       }
       square.weight[at] = shares.weights[pixel];
       square.mirror[at] = shares.mirrors[pixel];
-      square.noise[at] = noiseOf(shares.rays[pixel]);
+      if (shares.rays[pixel] != rays) {
+        rays = shares.rays[pixel];
+        noise = noiseOf(rays);
+      }
+      square.noise[at] = noise;
     }
   }
-  if (!points.onlyNumberIn(place.all)) setSurfacesIn(points, place, square);
+  square.oneSurface = points.onlyNumberIn(place.all).has_value();
+  if (square.oneSurface) return square;
+  setSurfacesIn(points, place, square);
+  square.oneSurface = showsOne(square, place);
   return square;
 }
 

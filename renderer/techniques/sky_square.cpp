@@ -1,18 +1,13 @@
 #include "renderer/techniques/sky_square.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "renderer/core/instruction_sets.h"
+#include "renderer/techniques/sky_sums.h"
 
 namespace gnomon {
+namespace sky_sums {
 namespace {
-
-constexpr std::size_t kRow = SkySquare::kSide; ///< pixels
-
-constexpr float kSkyFlat = 0.04f;       ///< squared sine of the steepest way from a pixel to one of the same surface
-constexpr float kSkyLeastCosine = 0.9f; ///< of their normals
-constexpr float kSkyFewest = 1e-3f;     ///< squared pixels; without a second direction there is no slope
 
 /// How far around a pixel shares are asked for, and how many times noise's variance they may differ by.
 struct SkyReach {
@@ -21,39 +16,6 @@ struct SkyReach {
 };
 constexpr SkyReach kNarrow{2, 5.0f};
 constexpr SkyReach kWide{SkySquare::kReach, 4.0f};
-
-/// 1 where a pixel shows the same surface as another, else 0.
-[[gnu::always_inline]] inline float isSameSurface(const SkySquare& square, std::size_t other, std::size_t pixel) {
-  const float x = square.point[0][other] - square.point[0][pixel];
-  const float y = square.point[1][other] - square.point[1][pixel];
-  const float z = square.point[2][other] - square.point[2][pixel];
-  const float nx = square.normal[0][pixel];
-  const float ny = square.normal[1][pixel];
-  const float nz = square.normal[2][pixel];
-  const float along = x * nx + y * ny + z * nz;
-  const float cosine = square.normal[0][other] * nx + square.normal[1][other] * ny + square.normal[2][other] * nz;
-  const int same = square.shows[other] & (along * along <= kSkyFlat * (x * x + y * y + z * z) ? -1 : 0) &
-                   (cosine >= kSkyLeastCosine ? -1 : 0);
-  return same != 0 ? 1.0f : 0.0f;
-}
-
-/// Weighted sums over the pixels of one surface around each pixel of a row.
-struct Weighted {
-  alignas(64) float one[kRow], x[kRow], y[kRow], xx[kRow], xy[kRow], yy[kRow], squared[kRow];
-};
-struct OfShare {
-  alignas(64) float sum[kRow], byX[kRow], byY[kRow];
-};
-
-[[gnu::always_inline]] inline void clear(Weighted& sums) {
-  for (std::size_t i = 0; i < kRow; ++i) {
-    sums.one[i] = sums.x[i] = sums.y[i] = sums.xy[i] = sums.squared[i] = 0;
-    sums.xx[i] = sums.yy[i] = kSkyFewest;
-  }
-}
-[[gnu::always_inline]] inline void clear(OfShare& sums) {
-  for (std::size_t i = 0; i < kRow; ++i) sums.sum[i] = sums.byX[i] = sums.byY[i] = 0;
-}
 
 /// A plane through shares, as the share at the pixel itself and what it takes of others.
 struct Slope {
@@ -95,47 +57,6 @@ struct Fit {
   }
 }
 
-/// The diffuse shares, and the mirrored ones: each with weights of its own.
-struct Sums {
-  Weighted diffuse, mirrored;
-  OfShare share[4];
-  alignas(64) float squares[2][kRow];
-};
-
-[[gnu::always_inline]] inline void add(const SkySquare& square, std::size_t first, int right, int up, float part,
-                                       Sums& sums) {
-  const auto to = static_cast<std::size_t>(up * SkySquare::kWidth + right);
-  const auto x = static_cast<float>(right);
-  const auto y = static_cast<float>(up);
-  for (std::size_t i = 0; i < kRow; ++i) {
-    const std::size_t other = first + i + to;
-    const float same = part * isSameSurface(square, other, first + i);
-    const float one = same * square.weight[other];
-    const float mirror = same * square.mirror[other];
-    const auto addTo = [&](Weighted& w, float by) {
-      w.one[i] += by;
-      w.x[i] += by * x;
-      w.y[i] += by * y;
-      w.xx[i] += by * x * x;
-      w.xy[i] += by * x * y;
-      w.yy[i] += by * y * y;
-      w.squared[i] += by * by;
-    };
-    addTo(sums.diffuse, one);
-    addTo(sums.mirrored, mirror);
-    for (std::size_t c = 0; c < 4; ++c) {
-      const float by = (c < 3 ? one : mirror) * square.share[c][other];
-      sums.share[c].sum[i] += by;
-      sums.share[c].byX[i] += by * x;
-      sums.share[c].byY[i] += by * y;
-    }
-    const float green = square.share[1][other];
-    const float alpha = square.share[3][other];
-    sums.squares[0][i] += one * green * green;
-    sums.squares[1][i] += mirror * alpha * alpha;
-  }
-}
-
 /// How far shares vary from their plane more than noise would have them: 0 not at all, 1 by far.
 [[gnu::always_inline]] inline void beyond(const Weighted& sums, const Fit& found, const float* squares,
                                           const float* noise, float most, float* kept) {
@@ -145,7 +66,7 @@ struct Sums {
     const float free = pixels - 3; // a plane takes three
     const float varies = (squares[i] * over - found.explained[i]) * pixels / (free > 0.5f ? free : 0.5f);
     const float plane = found.plane[i];
-    const float expected = most * noise[i] * (4 * plane * (1 - plane) + 0.04f);
+    const float expected = most * noise[i] * over * (4 * plane * (1 - plane) + 0.04f);
     const float times = varies / (expected > 1e-9f ? expected : 1e-9f) - 1;
     kept[i] = times > 0 ? (times < 1 ? times : 1.0f) : 0.0f;
   }
@@ -155,27 +76,25 @@ struct RowShares {
   alignas(64) float share[4][kRow], uneven[kRow];
 };
 
-[[gnu::always_inline]] inline void evenBy(const SkySquare& square, std::size_t first, const SkyReach& reach,
-                                          RowShares& row) {
-  Sums sums;
-  clear(sums.diffuse);
-  clear(sums.mirrored);
-  for (OfShare& share : sums.share) clear(share);
-  for (auto& squares : sums.squares) std::fill_n(squares, kRow, 0.0f);
-  for (int up = -reach.pixels; up <= reach.pixels; ++up) {
-    for (int right = -reach.pixels; right <= reach.pixels; ++right) {
-      const float part = (std::abs(right) == reach.pixels ? 0.5f : 1.0f) * (std::abs(up) == reach.pixels ? 0.5f : 1.0f);
-      add(square, first, right, up, part, sums);
-    }
-  }
+/// The sums of all rows of a square, for each reach: where all pixels show one surface, first along rows, then across.
+struct SquareSums {
+  RowSums narrow[SkySquare::kWidth], wide[SkySquare::kWidth];
+};
+
+GNOMON_FOR_EACH_INSTRUCTION_SET void addAlongRows(const SkySquare& square, bool wide, SquareSums& sums) {
+  addRows(square, kNarrow.pixels, sums.narrow);
+  if (wide) addRows(square, kWide.pixels, sums.wide);
+}
+
+[[gnu::always_inline]] inline void evenBy(const Sums& sums, float most, RowShares& row) {
   Slope slope, mirrorSlope;
   momentsOf(sums.diffuse, slope);
   momentsOf(sums.mirrored, mirrorSlope);
   Fit found[4];
   for (std::size_t c = 0; c < 4; ++c) fit(c < 3 ? slope : mirrorSlope, sums.share[c], found[c]);
   alignas(64) float kept[2][kRow];
-  beyond(sums.diffuse, found[1], sums.squares[0], square.noise + first, reach.most, kept[0]);
-  beyond(sums.mirrored, found[3], sums.squares[1], square.noise + first, 4 * reach.most, kept[1]);
+  beyond(sums.diffuse, found[1], sums.squares[0], sums.noise[0], most, kept[0]);
+  beyond(sums.mirrored, found[3], sums.squares[1], sums.noise[1], 4 * most, kept[1]);
   for (std::size_t c = 0; c < 4; ++c) {
     const Weighted& weights = c < 3 ? sums.diffuse : sums.mirrored;
     for (std::size_t i = 0; i < kRow; ++i) {
@@ -187,23 +106,53 @@ struct RowShares {
   std::copy_n(kept[0], kRow, row.uneven);
 }
 
+[[gnu::always_inline]] inline void ownShares(const SkySquare& square, std::size_t first, RowShares& row) {
+  for (std::size_t c = 0; c < 4; ++c) std::copy_n(square.share[c] + first, kRow, row.share[c]);
+}
+
 GNOMON_FOR_EACH_INSTRUCTION_SET void evenRow(const SkySquare& square, std::size_t first, bool wide, RowShares& row) {
-  for (std::size_t c = 0; c < 4; ++c) {
-    for (std::size_t i = 0; i < kRow; ++i) row.share[c][i] = square.share[c][first + i];
-  }
-  evenBy(square, first, kNarrow, row);
-  if (wide) evenBy(square, first, kWide, row);
+  ownShares(square, first, row);
+  Sums sums;
+  clear(sums);
+  addAll(square, first, kNarrow.pixels, sums);
+  evenBy(sums, kNarrow.most, row);
+  if (!wide) return;
+  clear(sums);
+  addAll(square, first, kWide.pixels, sums);
+  evenBy(sums, kWide.most, row);
+}
+
+/// The same where all pixels of the square show one surface. `y`: the row's, from the lowest of the square's own.
+GNOMON_FOR_EACH_INSTRUCTION_SET void evenRowOfOne(const SkySquare& square, const SquareSums& rows, std::size_t y,
+                                                  bool wide, RowShares& row) {
+  const std::size_t first = (y + SkySquare::kReach) * SkySquare::kWidth + SkySquare::kReach;
+  ownShares(square, first, row);
+  Sums sums;
+  clear(sums);
+  addAcross(rows.narrow, y + SkySquare::kReach, kNarrow.pixels, sums);
+  evenBy(sums, kNarrow.most, row);
+  if (!wide) return;
+  clear(sums);
+  addAcross(rows.wide, y + SkySquare::kReach, kWide.pixels, sums);
+  evenBy(sums, kWide.most, row);
 }
 
 } // namespace
+} // namespace sky_sums
 
 EvenSky evenOut(const SkySquare& square, bool wide) {
   EvenSky even;
+  sky_sums::SquareSums rows;
+  if (square.oneSurface) sky_sums::addAlongRows(square, wide, rows);
   for (std::size_t y = 0; y < SkySquare::kSide; ++y) {
-    RowShares row;
-    evenRow(square, (y + SkySquare::kReach) * SkySquare::kWidth + SkySquare::kReach, wide, row);
-    for (std::size_t c = 0; c < 4; ++c) std::copy_n(row.share[c], kRow, even.share[c] + y * kRow);
-    std::copy_n(row.uneven, kRow, even.uneven + y * kRow);
+    sky_sums::RowShares row;
+    if (square.oneSurface) {
+      sky_sums::evenRowOfOne(square, rows, y, wide, row);
+    } else {
+      sky_sums::evenRow(square, (y + SkySquare::kReach) * SkySquare::kWidth + SkySquare::kReach, wide, row);
+    }
+    for (std::size_t c = 0; c < 4; ++c) std::copy_n(row.share[c], sky_sums::kRow, even.share[c] + y * sky_sums::kRow);
+    std::copy_n(row.uneven, sky_sums::kRow, even.uneven + y * sky_sums::kRow);
   }
   return even;
 }

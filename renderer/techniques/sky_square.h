@@ -19,6 +19,7 @@ struct SkySquare {
   float noise[kCount];                ///< variance that rays leave in a share of a half
   float point[3][kCount];             ///< that a pixel shows, relative to any place
   float normal[3][kCount];            ///< unit length
+  bool oneSurface;                    ///< all pixels of the picture show one, which turns little: no two are compared
   int shows[kCount];                  ///< -1: a surface that shows shadows; else 0, and point and normal mean nothing
 };
 
