@@ -27,7 +27,7 @@ enum class SunExtraction { auto_, none, removed };
 struct EnvironmentOptions {
   std::optional<std::string> file{};
   std::optional<Sky> sky{};
-  Studio studio = Studio::even;
+  Studio studio = Studio::lamps;
   double rotationDegrees = 0;
   std::optional<double> intensity{};
   EnvironmentBackground background = EnvironmentBackground::none;

@@ -23,6 +23,7 @@ std::vector<Light> chosenLights(const FrameSpec& spec, std::span<const Light> of
   if (lights.empty() && !hasSurroundings(spec.environment)) {
     Light sun;
     sun.sun.emplace();
+    sun.intensity = kUsualSunIntensity;
     lights.push_back(sun);
   }
   return lights;
