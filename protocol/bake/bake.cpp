@@ -27,7 +27,7 @@ FrameSpec bakedParts(const FrameSpec& spec) {
       parts.environment.studio = spec.environment.studio;
     }
   } else if (isStudio(spec.environment) && spec.environment.studio) {
-    parts.environment.studio = Studio::even; // named: the sun of the scene's own light does not shine
+    parts.environment.studio = Studio::lamps; // named: the sun of the scene's own light does not shine
   }
   parts.scene = spec.scene;
   parts.materialVariant = spec.materialVariant;

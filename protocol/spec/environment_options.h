@@ -24,7 +24,7 @@ enum class EnvironmentShadows { none, rays };
 enum class SunExtraction { auto_, none, removed };
 
 /// At most one of `file`, `sky` and `light`. With none of them and without `studio`, the light of the frame's scene
-/// where the glTF has one, else the even studio of `ambient`.
+/// where the glTF has one, else the studio of `ambient`, with lamps.
 struct EnvironmentOptions {
   std::optional<std::string> file{};
   std::optional<Sky> sky{};

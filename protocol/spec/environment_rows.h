@@ -55,7 +55,7 @@ inline constexpr auto kRows<EnvironmentOptions> =
     rows("EnvironmentOptions",
          "Light from all around: a picture of all directions, a computed sky, or the studio of `ambient`. Without "
          "`file`, "
-         "`sky`, `light` and `studio`: what the glTF gives its scene, else the even studio.",
+         "`sky`, `light` and `studio`: what the glTF gives its scene, else the studio with lamps.",
          field<&EnvironmentOptions::file>("Name of a file of the upload: .hdr (Radiance) or .exr, twice as wide as "
                                           "high, linear radiance by longitude and latitude.",
                                           {.minCount = 1, .maxCount = 255}),
@@ -65,7 +65,7 @@ inline constexpr auto kRows<EnvironmentOptions> =
              "that of the frame's scene, unless `file`, `sky` or `studio` is there.",
              {.range = {0, double(kLimits.maxImages)}}),
          field<&EnvironmentOptions::studio>("The neutral studio that lights the scene where there is no file, sky or "
-                                            "light; `ambient` is its brightness and its color. Absent = even."),
+                                            "light; `ambient` is its brightness and its color. Absent = lamps."),
          field<&EnvironmentOptions::rotationDegrees>(
              "Turns the environment about the vertical axis, clockwise as seen from above. At 0 the middle of a file's "
              "picture lies towards +X and its right half towards +Z, and a light lies as the glTF turns it.",

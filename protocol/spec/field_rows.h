@@ -18,7 +18,7 @@ inline constexpr auto kRows<Ambient> =
     rows("Ambient", "Light of the surroundings: a neutral studio, brighter above than at the sides and below.",
          field<&Ambient::color>("Linear red, green and blue.", {.range = kUnitRange}),
          field<&Ambient::intensity>("Brightness of the surroundings from above, in the same unit as the lights; the "
-                                    "default is a tenth of a light's default intensity.",
+                                    "default is a fifth of a light's default intensity.",
                                     {.range = kIntensityRange}));
 
 template <>
@@ -101,9 +101,10 @@ inline constexpr auto kRows<FrameSpec> = rows(
                              {.unit = "pixels", .range = kFrameSideRange}),
     field<&FrameSpec::height>("Height of the picture.", {.unit = "pixels", .range = kFrameSideRange}),
     field<&FrameSpec::camera>("Where the picture is taken from, and with which lens."),
-    field<&FrameSpec::lights>(
-        "The lights; absent = those of the scene, or one sun if it has none. Each shadow map needs tiles of its own.",
-        {.maxCount = kLimits.maxLights}),
+    field<&FrameSpec::lights>("The lights; absent = those of the scene, or one sun of intensity 2 if it has none. Each "
+                              "shadow map needs tiles "
+                              "of its own.",
+                              {.maxCount = kLimits.maxLights}),
     field<&FrameSpec::shadow>("The shadow of every light that has no `shadow` of its own."),
     field<&FrameSpec::shadowLightPolicy>("Which lights cast shadows."),
     field<&FrameSpec::atlas>("The depth texture that holds every shadow tile."),

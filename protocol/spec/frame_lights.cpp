@@ -19,6 +19,7 @@ std::vector<Light> chosenLights(const FrameSpec& spec, std::span<const Light> of
   if (lights.empty() && isStudio(spec.environment)) {
     Light sun;
     sun.sun.emplace();
+    sun.intensity = kUsualSunIntensity;
     lights.push_back(sun);
   }
   return lights;
@@ -49,7 +50,7 @@ bool isStudio(const EnvironmentOptions& environment) {
 EnvironmentOptions withSource(EnvironmentOptions environment, const std::optional<int>& ofScene) {
   if (!isStudio(environment) || environment.studio) return environment;
   environment.light = ofScene;
-  if (!ofScene) environment.studio = Studio::even;
+  if (!ofScene) environment.studio = Studio::lamps;
   return environment;
 }
 

@@ -15,7 +15,7 @@ namespace gnomon {
 
 struct Ambient {
   Vec3 color{1, 1, 1};
-  double intensity = 0.3; ///< mean radiance above, weighted by the cosine, in the unit of the lights
+  double intensity = 0.6; ///< mean radiance above, weighted by the cosine, in the unit of the lights
 
   bool operator==(const Ambient&) const = default;
 };
@@ -79,7 +79,7 @@ struct FrameSpec {
   std::optional<Ground> ground{};
   Background background;
   double exposure = 0;
-  ToneMapping toneMapping = ToneMapping::aces;
+  ToneMapping toneMapping = ToneMapping::neutral;
   Antialiasing antialiasing = Antialiasing::msaa4x;
   std::vector<View> views{View::color};
   std::optional<MotionFrom> motionFrom;

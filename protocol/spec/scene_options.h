@@ -111,6 +111,7 @@ enum class LightType { directional, spot, point };
 
 inline constexpr double kUsualSunAzimuth = 135;  ///< degrees
 inline constexpr double kUsualSunElevation = 45; ///< degrees
+inline constexpr double kUsualSunIntensity = 2;  ///< lux, where neither the request nor the scene has lights
 
 /// Azimuth and elevation, or all of latitude, longitude and time.
 struct Sun {

@@ -20,7 +20,7 @@ struct Environment {
 /// The environment of one frame.
 struct FrameEnvironment {
   std::shared_ptr<const Environment> environment{}; ///< null = the studio of `ambient`
-  bool studioLamps = false;                         ///< the studio has lamps; else it is even all around
+  bool studioLamps = true;                          ///< the studio has lamps; else it is even all around
   glm::dmat3 mapFromWorld{1};                       ///< a turn about the vertical axis
   double intensity = 1;                             ///< radiance is multiplied by it
 };

@@ -53,7 +53,7 @@ std::shared_ptr<const EnvironmentSampler> samplerOf(const std::shared_ptr<const 
 } // namespace
 
 SkyLight skyLightOf(const FrameEnvironment* environment) {
-  if (environment == nullptr) return {studioSampler(false)};
+  if (environment == nullptr) return {studioSampler(true)};
   if (!environment->environment) return {studioSampler(environment->studioLamps), glm::mat3(environment->mapFromWorld)};
   return {samplerOf(environment->environment), glm::mat3(environment->mapFromWorld)};
 }

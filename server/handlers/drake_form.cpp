@@ -190,6 +190,8 @@ FrameSpec drakeDefaults() {
   spec.lights = std::vector<Light>{sun};
   spec.background.color = {0.604, 0.783, 1}; // that of Drake's own pictures: 204 229 255
   spec.toneMapping = ToneMapping::none;
+  spec.ambient.intensity = 0.3;
+  spec.environment.studio = Studio::even;
   return spec;
 }
 

@@ -57,6 +57,9 @@ Json specOf(int camera, const Json& more) {
                {"height", 180},
                {"camera", {{"orbit", {{"azimuthDegrees", turns[camera]}, {"elevationDegrees", 15 + 25 * camera}}}}},
                {"lights", {{{"type", "directional"}, {"sun", {{"azimuthDegrees", 120}, {"elevationDegrees", 40}}}}}},
+               {"ambient", {{"intensity", 0.3}}},
+               {"environment", {{"studio", "even"}}},
+               {"toneMapping", "aces"},
                {"antialiasing", "none"}};
   spec.merge_patch(more);
   return spec;

@@ -122,6 +122,7 @@ TEST(Ground, SurroundingsAndOtherLightsFillTheShadow) {
   EXPECT_NEAR(pixelAt(two, 2, 0).w, slanted / (slanted + 2), 1e-4);
   const Frame around = drawn({{"lights", {sun({{"intensity", 3}})}},
                               {"ambient", {{"color", {1, 1, 1}}, {"intensity", 0.5}}},
+                              {"environment", {{"studio", "even"}}},
                               {"shadow", {{"technique", "rayTraced"}}}});
   const double open = 0.5 * (0.547 + 0.3034 + 0.1534); // of irradianceOfEvenStudio, over pi, on what faces up
   const double sunlit = slanted / std::acos(-1.0);

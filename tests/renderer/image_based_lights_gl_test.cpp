@@ -193,7 +193,7 @@ TEST(ImageBasedLightFrames, WhatARequestNamesComesFirst) {
         floatsOf(drawn(device, scene, spec)),
         floatsOf(drawn(device, scene, with({{"light", 0}, {"background", "environment"}, {"extractSun", "none"}}))));
     // A scene whose glTF gives it none is in the studio, and says so.
-    EXPECT_EQ(drawn(device, unlit, spec).report.spec.environment.studio, Studio::even);
+    EXPECT_EQ(drawn(device, unlit, spec).report.spec.environment.studio, Studio::lamps);
     // With the studio there is the usual sun, with a light none.
     Json open = with({{"studio", "even"}});
     open.erase("lights");

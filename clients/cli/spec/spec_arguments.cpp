@@ -114,7 +114,7 @@ std::string replaceEnvironment(Json& spec, const std::string& text) {
   const bool isWord = std::find(kEnvironmentWords.begin(), kEnvironmentWords.end(), text) != kEnvironmentWords.end();
   environment.erase("file");
   environment.erase("light");
-  if (text == "studio" && !environment.contains("studio")) environment["studio"] = spell(Studio::even);
+  if (text == "studio" && !environment.contains("studio")) environment["studio"] = spell(Studio::lamps);
   if (text != "sky") environment.erase("sky");
   if (text == "sky" && !environment.contains("sky")) environment["sky"] = Json::object();
   if (!isWord) environment["file"] = std::filesystem::path(text).filename().string();

@@ -619,8 +619,8 @@ class Ambient:
     color:
         Linear red, green and blue. Default: [1.0, 1.0, 1.0].
     intensity:
-        Brightness of the surroundings from above, in the same unit as the lights; the default is a tenth of a
-        light's default intensity. Default: 0.3.
+        Brightness of the surroundings from above, in the same unit as the lights; the default is a fifth of a
+        light's default intensity. Default: 0.6.
     """
 
     color: Optional[Vector] = None
@@ -879,7 +879,8 @@ class FrameSpec:
     camera:
         Where the picture is taken from, and with which lens.
     lights:
-        The lights; absent = those of the scene, or one sun if it has none. Each shadow map needs tiles of its own.
+        The lights; absent = those of the scene, or one sun of intensity 2 if it has none. Each shadow map needs
+        tiles of its own.
     shadow:
         The shadow of every light that has no `shadow` of its own.
     shadowLightPolicy:
@@ -914,7 +915,7 @@ class FrameSpec:
     toneMapping:
         How linear light is brought into the range of a PNG; an EXR is never tone mapped. aces = a film-like curve;
         neutral = Khronos PBR Neutral: colors of surfaces stay, highlights alone are compressed; agx = AgX: soft
-        contrast, bright colors fade to white; none = unchanged, clipped at 1. Default: "aces".
+        contrast, bright colors fade to white; none = unchanged, clipped at 1. Default: "neutral".
     antialiasing:
         How edges of surfaces are smoothed. Four samples a pixel take two to three times as long to draw on a CPU.
         none = one sample a pixel; msaa4x = four samples a pixel. Default: "msaa4x".

@@ -15,7 +15,8 @@ try {
   const own = path.join(folder, 'own.png');
   execFileSync(gnomon, ['bake', scene, '-o', path.join(folder, 'baked.glb'), ...kBake]);
   execFileSync(gnomon, ['render', scene, '-o', own, '--camera', kView.cameraName, '--size',
-    `${kView.width}x${kView.height}`, '--set', 'toneMapping=none', ...kBake]);
+    `${kView.width}x${kView.height}`, '--set', 'toneMapping=none', '--set', 'environment.studio=even',
+    '--set', `ambient.intensity=${kView.ambient}`, ...kBake]);
 
   const html = `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">
 <style>body { margin: 0; display: flex; background: #fff; gap: 4px } img, canvas { display: block }</style>

@@ -59,6 +59,7 @@ TEST(SettledSun, ALightIsSettledAndGoesOutAtNight) {
   EXPECT_EQ(night.intensity, 0);
   EXPECT_LT(*night.sun->elevationDegrees, -10);
   EXPECT_EQ(lightsOf(FrameSpec{}, {}).front().sun, (Sun{135, 45}));
+  EXPECT_EQ(lightsOf(FrameSpec{}, {}).front().intensity, 2);
 }
 
 TEST(SunRules, APlaceNeedsATimeAndNoAzimuth) {

@@ -99,6 +99,7 @@ TEST_F(BakedEnvironmentTest, AGlbHasTheStudioOfAmbient) {
   FrameSpec spec = skyAlone();
   spec.ambient.color = Vec3{1, 0.5, 0.25};
   spec.ambient.intensity = 0.6;
+  spec.environment.studio = Studio::even;
   spec.environment.intensity = 2;
   const auto file = bakeFile(bake(spec), BakeFile::glb, {});
   ASSERT_TRUE(file);

@@ -92,7 +92,7 @@ TEST(SpecArguments, AnEnvironmentTakesThePlaceOfAnotherAndKeepsHowItIsShown) {
   const FrameSpec studio = resolved(R"({"environment": {"file": "a.hdr", "intensity": 2}})", flags);
   EXPECT_FALSE(studio.environment.file || studio.environment.sky);
   EXPECT_EQ(studio.environment.intensity, 2);
-  EXPECT_EQ(studio.environment.studio, Studio::even) << "named, so that the glTF's own light is not asked for";
+  EXPECT_EQ(studio.environment.studio, Studio::lamps) << "named, so that the glTF's own light is not asked for";
   const FrameSpec lamps = resolved(R"({"environment": {"light": 1, "studio": "lamps"}})", flags);
   EXPECT_FALSE(lamps.environment.light);
   EXPECT_EQ(lamps.environment.studio, Studio::lamps);
