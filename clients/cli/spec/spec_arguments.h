@@ -66,7 +66,8 @@ Problems ofRequest(const std::string& file, Problems problems);
 /// which comes last, then checked as the server checks a request. --camera and --orbit replace the placement and keep
 /// the lens; --environment goes in place of another file or a sky and keeps the rest; --sun turns the sun of the sky,
 /// or where there is none the first directional light, or adds one; --sun-hours keeps the steps and north, and adds its
-/// view to those that are named. What is wrong with the JSON by itself is reported with the `file` that it was read from.
+/// view to those that are named. What is wrong with the JSON by itself is reported with the `file` that it was read
+/// from.
 ResolvedSpec resolveSpec(const std::string& specJson, const SpecArguments& arguments, const std::string& file = "");
 
 /// The text of a spec in a file; "-" is standard input, an empty name is "{}".

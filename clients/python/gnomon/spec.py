@@ -648,7 +648,7 @@ class Sky:
 @dataclass
 class EnvironmentOptions:
     """Light from all around: a picture of all directions, a computed sky, or the studio of `ambient`. Without `file`,
-    `sky`, `light` and `studio`: what the glTF gives its scene, else the even studio.
+    `sky`, `light` and `studio`: what the glTF gives its scene, else the studio with lamps.
 
     file:
         Name of a file of the upload: .hdr (Radiance) or .exr, twice as wide as high, linear radiance by longitude
@@ -660,8 +660,8 @@ class EnvironmentOptions:
         unless `file`, `sky` or `studio` is there.
     studio:
         The neutral studio that lights the scene where there is no file, sky or light; `ambient` is its brightness
-        and its color. Absent = even. lamps = a dim room with a lamp overhead and three around the scene; even = the
-        same all around, brighter above than at the sides and below.
+        and its color. Absent = lamps. lamps = a dim room with a lamp overhead and three around the scene; even =
+        the same all around, brighter above than at the sides and below.
     rotationDegrees:
         Turns the environment about the vertical axis, clockwise as seen from above. At 0 the middle of a file's
         picture lies towards +X and its right half towards +Z, and a light lies as the glTF turns it. Unit: degrees.
