@@ -76,6 +76,7 @@ class FaceReader {
     if (side > most) {
       found.tooLarge(level, "The faces of an image-based light are too large.", std::to_string(most) + " a side",
                      std::to_string(side));
+      return side;
     }
     pixels_ += std::int64_t{6} * side * side;
     if (pixels_ > load_.limits.maxImagePixels) {
