@@ -50,15 +50,6 @@ struct SkyTexel {
   bool covered = false;
 };
 
-/// 0..65535. A color that nothing is lit by has the share of all others.
-std::int32_t shareOfColor(const SkyTexel& texel, glm::length_t color) {
-  const double weight = luminanceOf(texel.open);
-  if (!(weight > 0)) return 65535;
-  const double share =
-      texel.open[color] > 0 ? texel.arriving[color] / texel.open[color] : luminanceOf(texel.arriving) / weight;
-  return static_cast<std::int32_t>(std::lround(std::clamp(share, 0.0, 1.0) * 65535));
-}
-
 class SkySums : public TexelSums {
  public:
   SkySums(const TracedSky& traced, const SkyLight& sky, const PixelPlaces& places, const Rect& rect,
@@ -91,8 +82,9 @@ class SkySums : public TexelSums {
     std::vector<std::vector<std::int32_t>> planes(3, std::vector<std::int32_t>(texels_.size(), kUncovered));
     for (std::size_t i = 0; i < texels_.size(); ++i) {
       if (!texels_[i].covered) continue;
+      const glm::dvec3 share = arrivingShare(texels_[i].open, texels_[i].arriving);
       for (std::size_t color = 0; color < planes.size(); ++color) {
-        planes[color][i] = shareOfColor(texels_[i], static_cast<glm::length_t>(color));
+        planes[color][i] = static_cast<std::int32_t>(std::lround(share[static_cast<glm::length_t>(color)] * 65535));
       }
     }
     return planes;

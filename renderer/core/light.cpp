@@ -65,6 +65,17 @@ double luminanceOf(const glm::dvec3& color) {
   return glm::dot(glm::dvec3(0.2126, 0.7152, 0.0722), color);
 }
 
+glm::dvec3 arrivingShare(const glm::dvec3& open, const glm::dvec3& arriving) {
+  const double weight = luminanceOf(open);
+  if (!(weight > 0)) return glm::dvec3(1);
+  glm::dvec3 share;
+  for (int i = 0; i < 3; ++i) {
+    const double own = open[i] > 0 ? arriving[i] / open[i] : luminanceOf(arriving) / weight;
+    share[i] = std::clamp(own, 0.0, 1.0);
+  }
+  return share;
+}
+
 glm::dvec3 blackBodyColor(double kelvin) {
   const glm::dvec3 color = glm::max(linearSrgbOf(xyzOf(planckianLocus(kelvin))), glm::dvec3(0.0));
   return color / luminanceOf(color);

@@ -22,4 +22,8 @@ glm::dvec3 blackBodyColor(double kelvin);
 /// Luminance of linear sRGB (Rec. 709).
 double luminanceOf(const glm::dvec3& color);
 
+/// The share of each component of `open` light that arrives, 0..1. A component that nothing is lit by has the share of
+/// all others; without any light all are 1.
+glm::dvec3 arrivingShare(const glm::dvec3& open, const glm::dvec3& arriving);
+
 } // namespace gnomon

@@ -1,13 +1,13 @@
 #include "renderer/frame/volume_sky.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 
 #include "renderer/core/light.h"
 #include "renderer/core/parallel.h"
+#include "renderer/core/reversed_bits.h"
 
 namespace gnomon {
 namespace {
@@ -16,13 +16,6 @@ constexpr int kDirectionsOfSample = 16;
 constexpr int kMostDirections = 1024;
 constexpr std::size_t kPointsTogether = 64;
 
-/// The digits of a number behind the point, in reverse (van der Corput).
-double reversed(std::uint32_t number) {
-  std::uint32_t bits = 0;
-  for (int i = 0; i < 32; ++i) bits |= (number >> i & 1u) << (31 - i);
-  return bits * 0x1p-32;
-}
-
 /// One of so many, as evenly over the sphere as the seeds of a sunflower (González, "Measurement of Areas on a Sphere
 /// Using Fibonacci and Latitude-Longitude Lattices", 2010).
 glm::dvec3 evenDirection(int number, int of) {
@@ -30,18 +23,6 @@ glm::dvec3 evenDirection(int number, int of) {
   const double across = std::sqrt(1 - height * height);
   const double angle = 2 * std::numbers::pi * std::fmod(number / std::numbers::phi, 1.0);
   return {across * std::cos(angle), height, across * std::sin(angle)};
-}
-
-/// 0..1 each. A color that nothing is lit by has the share of all others.
-glm::vec4 shareOf(const glm::dvec3& open, const glm::dvec3& arriving) {
-  const double weight = luminanceOf(open);
-  if (!(weight > 0)) return {1, 1, 1, 0};
-  glm::vec4 share(0);
-  for (int color = 0; color < 3; ++color) {
-    const double of = open[color] > 0 ? arriving[color] / open[color] : luminanceOf(arriving) / weight;
-    share[color] = static_cast<float>(std::clamp(of, 0.0, 1.0));
-  }
-  return share;
 }
 
 } // namespace
@@ -66,7 +47,7 @@ DirectionsOfSky skyDirections(const SkyLight& sky, int count) {
   for (int i = 0; i < even; ++i) add(evenDirection(i, even));
   for (int i = 0; i < byLight; ++i) {
     const glm::vec2 place(static_cast<float>((i + 0.5) / byLight),
-                          static_cast<float>(reversed(static_cast<std::uint32_t>(i))));
+                          static_cast<float>(reversedBits(static_cast<std::uint32_t>(i)) * 0x1p-32));
     add(glm::normalize(glm::dvec3(sky.sampler->direction(place) * sky.mapFromWorld))); // the inverse turn
   }
   return all;
@@ -88,7 +69,7 @@ VolumeLight skyInVolume(const TracedSky& traced, const DirectionsOfSky& sky, con
       traced.through(latticePlace(space, map.size, i), sky.towards, shares);
       glm::dvec3 arriving(0);
       for (std::size_t k = 0; k < shares.size(); ++k) arriving += double{shares[k]} * sky.light[k];
-      map.texels[i] = shareOf(whole, arriving);
+      map.texels[i] = glm::vec4(glm::vec3(arrivingShare(whole, arriving)), 0);
     }
   });
   return map;

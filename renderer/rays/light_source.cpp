@@ -8,17 +8,10 @@
 #include "renderer/core/instruction_sets.h"
 #include "renderer/core/light.h"
 #include "renderer/core/linear_algebra.h"
+#include "renderer/core/reversed_bits.h"
 
 namespace gnomon {
 namespace {
-
-std::uint32_t reversed(std::uint32_t bits) {
-  bits = (bits >> 16) | (bits << 16);
-  bits = ((bits & 0x00ff00ffu) << 8) | ((bits & 0xff00ff00u) >> 8);
-  bits = ((bits & 0x0f0f0f0fu) << 4) | ((bits & 0xf0f0f0f0u) >> 4);
-  bits = ((bits & 0x33333333u) << 2) | ((bits & 0xccccccccu) >> 2);
-  return ((bits & 0x55555555u) << 1) | ((bits & 0xaaaaaaaau) >> 1);
-}
 
 /// The sine of up to an eighth of a turn, by its series to the last bit or two of a double: without branches or calls.
 inline double sineOf(double x) {
@@ -65,7 +58,7 @@ glm::dvec2 squareSample(std::uint32_t index, std::uint32_t count, std::uint64_t 
   }
   const double shift = static_cast<double>(seed >> 32) * kUnit;
   return {(index + shift) / count,
-          (static_cast<double>(reversed(index) ^ static_cast<std::uint32_t>(seed)) + 0.5) * kUnit};
+          (static_cast<double>(reversedBits(index) ^ static_cast<std::uint32_t>(seed)) + 0.5) * kUnit};
 }
 
 /// The shift that takes each four rays from a multiple of 4 on to the same places in another order: the first of them
@@ -139,7 +132,7 @@ void waysTo(const LightDisc& disc, const LightSamples& samples, std::uint64_t se
 }
 
 SquarePlace sequencePlace(std::uint32_t index) {
-  SquarePlace place{reversed(index), 0};
+  SquarePlace place{reversedBits(index), 0};
   // Sobol, "On the distribution of points in a cube", 1967: Pascal's triangle modulo 2.
   for (std::uint32_t column = 1u << 31; index != 0; index >>= 1, column ^= column >> 1) {
     if ((index & 1u) != 0) place.y ^= column;

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "renderer/core/instruction_sets.h"
+#include "renderer/techniques/same_surface.h"
 
 namespace gnomon {
 namespace {
@@ -12,24 +13,9 @@ namespace {
 constexpr std::size_t kRowLength = ShareSquare::kSide; ///< pixels
 constexpr std::size_t kUp = ShareSquare::kWidth;       ///< from a pixel to the one above
 
-constexpr float kFlat = 0.01f;       ///< squared sine of the steepest way from a pixel to one of the same surface
-constexpr float kLeastCosine = 0.9f; ///< of their normals
+constexpr SurfaceLimits kBeside{.flat = 0.01f, .leastCosine = 0.9f};
 constexpr float kLeastVariance = 1e-9f;
 constexpr float kFewest = 1e-3f; ///< squared pixels; without a second direction there is no slope
-
-/// Whether a pixel shows the same surface as another: -1, or 0.
-[[gnu::always_inline]] inline int isBeside(const ShareSquare& square, std::size_t other, std::size_t pixel) {
-  const float x = square.point[0][other] - square.point[0][pixel];
-  const float y = square.point[1][other] - square.point[1][pixel];
-  const float z = square.point[2][other] - square.point[2][pixel];
-  const float nx = square.normal[0][pixel];
-  const float ny = square.normal[1][pixel];
-  const float nz = square.normal[2][pixel];
-  const float along = x * nx + y * ny + z * nz;
-  const float cosine = square.normal[0][other] * nx + square.normal[1][other] * ny + square.normal[2][other] * nz;
-  return square.shows[other] & (along * along <= kFlat * (x * x + y * y + z * z) ? -1 : 0) &
-         (cosine >= kLeastCosine ? -1 : 0);
-}
 
 /// Squared differences of pixels from the mean of two of their surface beside them: the sum, and how many.
 struct Differences {
@@ -43,7 +29,8 @@ GNOMON_FOR_EACH_INSTRUCTION_SET void findDifferences(const ShareSquare& square, 
   }
   for (const std::size_t step : {std::size_t{1}, kUp}) {
     for (std::size_t i = kUp + 1; i < ShareSquare::kCount - kUp - 1; ++i) {
-      const int same = square.shows[i] & isBeside(square, i - step, i) & isBeside(square, i + step, i);
+      const int same =
+          square.shows[i] & showsSame(square, i - step, i, kBeside) & showsSame(square, i + step, i, kBeside);
       const float off = square.share[i] - 0.5f * (square.share[i - step] + square.share[i + step]);
       differences.sum[i] += same != 0 ? off * off : 0.0f;
       differences.count[i] += same != 0 ? 1.0f : 0.0f;
@@ -88,7 +75,7 @@ struct RowSums {
   for (std::size_t i = 0; i < kRowLength; ++i) {
     const std::size_t pixel = first + i;
     const float share = square.share[pixel + to];
-    const float one = isBeside(square, pixel + to, pixel) != 0 ? part : 0.0f;
+    const float one = showsSame(square, pixel + to, pixel, kBeside) != 0 ? part : 0.0f;
     sums.one[i] += one;
     sums.x[i] += one * x;
     sums.y[i] += one * y;

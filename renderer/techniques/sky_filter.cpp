@@ -4,6 +4,7 @@
 #include "renderer/core/parallel.h"
 #include "renderer/core/stop.h"
 #include "renderer/techniques/picture_shares.h"
+#include "renderer/techniques/same_surface.h"
 #include "renderer/techniques/share_square.h"
 #include "renderer/techniques/sky_shares.h"
 #include "renderer/techniques/sky_square.h"
@@ -73,42 +74,24 @@ void setSurfacesIn(const PicturePoints& points, const SquarePlaceOf& place, SkyS
   if (waiting.count > 0) put();
 }
 
-constexpr float kTurnsLittle = 0.985f; ///< cosine between a normal of a surface and that in the middle of a square
-constexpr float kStepFlat = 0.0025f;   ///< squared sine of the way from a pixel to the next
+/// Of neighbours, and of any pixel beside the one in the middle.
+constexpr SurfaceLimits kStep{.flat = 0.0025f, .leastCosine = -2};
+constexpr SurfaceLimits kTurnsLittle{.flat = 2, .leastCosine = 0.985f};
 
 /// Whether each pixel shows what the next to the right and the next above show, and normals turn little: then any two
-/// show the same surface as sky_square.cpp asks.
+/// show the same surface as sky_sums.h asks.
 bool showsOne(const SkySquare& square, const SquarePlaceOf& place) {
   const glm::ivec2 low(place.all.x, place.all.y);
-  const glm::ivec2 size(place.all.width, place.all.height);
-  const std::size_t middle = place.at(low + size / 2);
+  const glm::ivec2 high = low + glm::ivec2(place.all.width, place.all.height);
+  const std::size_t middle = place.at((low + high) / 2);
   int all = -1;
-  for (int y = 0; y < size.y; ++y) {
-    const std::size_t row = place.at({low.x, low.y + y});
-    for (std::size_t i = row; i < row + static_cast<std::size_t>(size.x); ++i) {
-      const float cosine = square.normal[0][i] * square.normal[0][middle] +
-                           square.normal[1][i] * square.normal[1][middle] +
-                           square.normal[2][i] * square.normal[2][middle];
-      all &= square.shows[i] & (cosine >= kTurnsLittle ? -1 : 0);
-    }
-  }
-  if (all == 0) return false;
-  const auto stepsFrom = [&](std::size_t i, std::size_t next) {
-    float along = 0;
-    float squared = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const float way = square.point[axis][next] - square.point[axis][i];
-      along += way * square.normal[axis][i];
-      squared += way * way;
-    }
-    return along * along <= kStepFlat * squared ? -1 : 0;
-  };
-  for (int y = 0; y < size.y; ++y) {
-    const std::size_t row = place.at({low.x, low.y + y});
-    const auto width = static_cast<std::size_t>(size.x);
-    for (std::size_t i = row; i + 1 < row + width; ++i) all &= stepsFrom(i, i + 1);
-    if (y + 1 == size.y) continue;
-    for (std::size_t i = row; i < row + width; ++i) all &= stepsFrom(i, i + SkySquare::kWidth);
+  for (int y = low.y; all != 0 && y < high.y; ++y) {
+    const std::size_t first = place.at({low.x, y});
+    const std::size_t last = first + static_cast<std::size_t>(place.all.width);
+    for (std::size_t i = first; i < last; ++i) all &= showsSame(square, i, middle, kTurnsLittle);
+    for (std::size_t i = first; i + 1 < last; ++i) all &= showsSame(square, i + 1, i, kStep);
+    if (y + 1 == high.y) break;
+    for (std::size_t i = first; i < last; ++i) all &= showsSame(square, i + SkySquare::kWidth, i, kStep);
   }
   return all != 0;
 }

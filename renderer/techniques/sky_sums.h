@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "renderer/techniques/same_surface.h"
 #include "renderer/techniques/sky_square.h"
 
 /// Weighted sums over the pixels around each pixel of a row of a square, as planes are fitted to: over those that show
@@ -12,24 +13,8 @@ namespace gnomon::sky_sums {
 
 inline constexpr std::size_t kRow = SkySquare::kSide; ///< pixels
 
-inline constexpr float kSkyFlat = 0.04f; ///< squared sine of the steepest way from a pixel to one of the same surface
-inline constexpr float kSkyLeastCosine = 0.9f; ///< of their normals
-inline constexpr float kSkyFewest = 1e-3f;     ///< squared pixels; without a second direction there is no slope
-
-/// 1 where a pixel shows the same surface as another, else 0.
-[[gnu::always_inline]] inline float isSameSurface(const SkySquare& square, std::size_t other, std::size_t pixel) {
-  const float x = square.point[0][other] - square.point[0][pixel];
-  const float y = square.point[1][other] - square.point[1][pixel];
-  const float z = square.point[2][other] - square.point[2][pixel];
-  const float nx = square.normal[0][pixel];
-  const float ny = square.normal[1][pixel];
-  const float nz = square.normal[2][pixel];
-  const float along = x * nx + y * ny + z * nz;
-  const float cosine = square.normal[0][other] * nx + square.normal[1][other] * ny + square.normal[2][other] * nz;
-  const int same = square.shows[other] & (along * along <= kSkyFlat * (x * x + y * y + z * z) ? -1 : 0) &
-                   (cosine >= kSkyLeastCosine ? -1 : 0);
-  return same != 0 ? 1.0f : 0.0f;
-}
+inline constexpr SurfaceLimits kSkySurface{.flat = 0.04f, .leastCosine = 0.9f};
+inline constexpr float kSkyFewest = 1e-3f; ///< squared pixels; without a second direction there is no slope
 
 /// Weighted sums over the pixels of one surface around each pixel of a row.
 struct Weighted {
@@ -63,7 +48,7 @@ struct Sums {
   const auto y = static_cast<float>(up);
   for (std::size_t i = 0; i < kRow; ++i) {
     const std::size_t other = first + i + to;
-    const float same = part * isSameSurface(square, other, first + i);
+    const float same = showsSame(square, other, first + i, kSkySurface) != 0 ? part : 0.0f;
     const float one = same * square.weight[other];
     const float mirror = same * square.mirror[other];
     const auto addTo = [&](Weighted& w, float by) {

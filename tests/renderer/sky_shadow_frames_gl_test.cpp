@@ -1,19 +1,20 @@
 // What the scene hides of a uniform sky, in whole frames: closed forms, and casters that let light through.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <random>
 
 #include "renderer/image/picture_encode.h"
 #include "tests/renderer/frame_fixture.h"
 #include "tests/renderer/made_environment.h"
-#include "tests/renderer/rays/shapes.h"
+#include "tests/renderer/sky_share_frames.h"
 
 namespace gnomon {
 namespace {
 
 using testing::floatsOf;
 using testing::GlbBuilder;
+using testing::meanOf;
+using testing::skyShareSpec;
 
 ScenePtr underWhiteSky(const GlbBuilder& builder) {
   SceneBundle bundle = builder.bundle();
@@ -21,29 +22,8 @@ ScenePtr underWhiteSky(const GlbBuilder& builder) {
   return testing::sceneOf(bundle);
 }
 
-/// The share of the sky that arrives, looking down at the origin from `height` through a lens of so many degrees.
-Json skySpec(double height, double degrees) {
-  return {{"width", 48},
-          {"height", 48},
-          {"camera",
-           {{"eye", {0, height, 0}},
-            {"target", {0, 0, 0}},
-            {"up", {0, 0, -1}},
-            {"perspective", {{"fovYDegrees", degrees}}}}},
-          {"lights", Json::array()},
-          {"environment", {{"file", "white.hdr"}, {"extractSun", "none"}, {"shadows", "rays"}, {"samples", 16}}},
-          {"debug", {{"light", "environment"}}},
-          {"antialiasing", "none"},
-          {"views", {"shadow"}},
-          {"output", {{"format", "exr"}, {"exrPixelType", "float"}}}};
-}
-
 std::vector<float> drawnFloats(const ScenePtr& scene, const Json& spec) {
   return floatsOf(testing::renderJson(scene, spec.dump()));
-}
-
-double meanOf(const std::vector<float>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 bool allAre(const std::vector<float>& values, float value) {
@@ -51,13 +31,8 @@ bool allAre(const std::vector<float>& values, float value) {
 }
 
 TEST(SkyShadowFrames, AnOpenPlaneGetsTheWholeSkyWithoutNoise) {
-  GlbBuilder builder;
-  testing::addSquare(builder, 10, 0);
-  builder.add("materials", {{"pbrMetallicRoughness",
-                             {{"baseColorFactor", {1, 1, 1, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 1}}}});
-  builder.json["meshes"][0]["primitives"][0]["material"] = 0;
-  const ScenePtr scene = underWhiteSky(builder);
-  Json spec = skySpec(5, 40);
+  const ScenePtr scene = underWhiteSky(testing::whiteFloor(10));
+  Json spec = skyShareSpec(5, 40);
   EXPECT_TRUE(allAre(drawnFloats(scene, spec), 1));
   spec["views"] = {"color"};
   spec.erase("debug");
@@ -75,7 +50,7 @@ TEST(SkyShadowFrames, AWallHidesWhatItsElevationSays) {
     const auto height = static_cast<float>(std::tan(glm::radians(elevation)));
     testing::addQuad(builder, {{-1000, 0, -1}, {1000, 0, -1}, {1000, height, -1}, {-1000, height, -1}});
     const double lost = (1 - std::cos(glm::radians(elevation))) / 2;
-    EXPECT_NEAR(meanOf(drawnFloats(underWhiteSky(builder), skySpec(1, 2))), 1 - lost, 0.005) << elevation;
+    EXPECT_NEAR(meanOf(drawnFloats(underWhiteSky(builder), skyShareSpec(1, 2))), 1 - lost, 0.005) << elevation;
   }
 }
 
@@ -83,7 +58,7 @@ TEST(SkyShadowFrames, ASphereHidesTheSquareOfItsRadiusOverItsHeight) {
   GlbBuilder builder;
   testing::addSquare(builder, 2, 0);
   testing::addSphere(builder, {0, 2, 0}, 1, 96);
-  EXPECT_NEAR(meanOf(drawnFloats(underWhiteSky(builder), skySpec(0.9, 2))), 0.75, 0.005);
+  EXPECT_NEAR(meanOf(drawnFloats(underWhiteSky(builder), skyShareSpec(0.9, 2))), 0.75, 0.005);
 }
 
 TEST(SkyShadowFrames, NothingArrivesInAClosedBox) {
@@ -91,7 +66,7 @@ TEST(SkyShadowFrames, NothingArrivesInAClosedBox) {
   testing::addSquare(builder, 0.5f, 0);
   builder.json["materials"] = {{{"doubleSided", true}}};
   builder.json["meshes"][0]["primitives"][0]["material"] = 0;
-  EXPECT_TRUE(allAre(drawnFloats(underWhiteSky(builder), skySpec(0.6, 40)), 0));
+  EXPECT_TRUE(allAre(drawnFloats(underWhiteSky(builder), skyShareSpec(0.6, 40)), 0));
 }
 
 /// Texels that let all through or nothing, by chance; so many tenths of them nothing.
@@ -146,7 +121,7 @@ TEST(SkyShadowFrames, ASheetLetsThroughWhatItsMaterialSays) {
         Sheet{"blended leaves", sheetOf(ofAlpha("BLEND", 0.5), 4), 0.8}, Sheet{"transmissive", sheetOf(glass), 0.8}}) {
     // Past the edges of the sheet comes 0.1 % of the sky.
     const double tolerance = sheet.builder.json.contains("textures") ? 0.02 : 0.01;
-    const double mean = meanOf(drawnFloats(underWhiteSky(sheet.builder), skySpec(1.9, 60)));
+    const double mean = meanOf(drawnFloats(underWhiteSky(sheet.builder), skyShareSpec(1.9, 60)));
     EXPECT_NEAR(mean, sheet.through, tolerance) << sheet.name;
   }
 }
@@ -154,7 +129,7 @@ TEST(SkyShadowFrames, ASheetLetsThroughWhatItsMaterialSays) {
 TEST(SkyShadowFrames, SwitchesOfNodesHold) {
   const ScenePtr scene = underWhiteSky(sheetOf(Json::object()));
   const auto with = [&](const Json& nodes) {
-    Json spec = skySpec(1.9, 60);
+    Json spec = skyShareSpec(1.9, 60);
     spec["nodes"] = nodes;
     return drawnFloats(scene, spec);
   };

@@ -1,19 +1,20 @@
 // Volumes under the sky, in whole frames: what they take of it from surfaces, and what of it arrives in them.
 #include <cmath>
 #include <functional>
-#include <numeric>
 
 #include "tests/renderer/frame_fixture.h"
 #include "tests/renderer/made_environment.h"
 #include "tests/renderer/made_grids.h"
-#include "tests/renderer/rays/shapes.h"
+#include "tests/renderer/sky_share_frames.h"
 
 namespace gnomon {
 namespace {
 
 using testing::floatsOf;
 using testing::GlbBuilder;
+using testing::meanOf;
 using testing::renderJson;
+using testing::whiteFloor;
 
 /// 0..255: how much of a voxel of a grid of side `side` lies in the ball that fills the box.
 int ballVoxel(int x, int y, int z, int side) {
@@ -36,16 +37,6 @@ ScenePtr underSky(const GlbBuilder& builder) {
   return testing::sceneOf(bundle);
 }
 
-/// A white matt square around the origin.
-GlbBuilder whiteFloor(float half) {
-  GlbBuilder builder;
-  testing::addSquare(builder, half, 0);
-  builder.add("materials", {{"pbrMetallicRoughness",
-                             {{"baseColorFactor", {1, 1, 1, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 1}}}});
-  builder.json["meshes"][0]["primitives"][0]["material"] = 0;
-  return builder;
-}
-
 Json volumeOf(const char* file, const glm::dvec3& low, const glm::dvec3& high, double sigma, double color = 0) {
   const Json rgb{color, color, color};
   return {
@@ -55,26 +46,10 @@ Json volumeOf(const char* file, const glm::dvec3& low, const glm::dvec3& high, d
        {{{"value", 0}, {"color", rgb}, {"extinction", 0}}, {{"value", 255}, {"color", rgb}, {"extinction", sigma}}}}};
 }
 
-/// Looking down at the origin from `height` through a lens of so many degrees.
 Json specOf(double height, double degrees, const std::vector<Json>& volumes) {
-  return {{"width", 48},
-          {"height", 48},
-          {"camera",
-           {{"eye", {0, height, 0}},
-            {"target", {0, 0, 0}},
-            {"up", {0, 0, -1}},
-            {"perspective", {{"fovYDegrees", degrees}}}}},
-          {"lights", Json::array()},
-          {"environment", {{"file", "white.hdr"}, {"extractSun", "none"}, {"shadows", "rays"}, {"samples", 16}}},
-          {"debug", {{"light", "environment"}}},
-          {"antialiasing", "none"},
-          {"volumes", volumes},
-          {"views", {"shadow"}},
-          {"output", {{"format", "exr"}, {"exrPixelType", "float"}}}};
-}
-
-double meanOf(const std::vector<float>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  Json spec = testing::skyShareSpec(height, degrees);
+  spec["volumes"] = volumes;
+  return spec;
 }
 
 double meanShare(const ScenePtr& scene, const Json& spec) {

@@ -64,6 +64,13 @@ inline VolumeSpace turnedSpace(const glm::dvec3& middle, const glm::dvec3& size,
   return *spaceOf(matrix);
 }
 
+/// A box, or a turned one, of up to 20 m around a place.
+inline VolumeSpace anySpace(Chances& chances, const glm::dvec3& middle) {
+  const glm::dvec3 size = 0.1 + 20.0 * chances.place();
+  return chances.below(2) == 0 ? boxSpace(middle - size / 2.0, middle + size / 2.0)
+                               : turnedSpace(middle, size, chances.between(0, 7), chances.direction());
+}
+
 /// The same extinction everywhere.
 inline Medium homogeneous(const VolumeSpace& space, double perMetre, const glm::ivec3& size = {4, 4, 4}) {
   return makeMedium(gridOf(size, [](const glm::dvec3&) { return 1.0; }), proportional(perMetre), space);

@@ -37,10 +37,7 @@ TEST(Transmittance, AHomogeneousBoxIsExactAtAnyResolution) {
   EXPECT_TRUE(rc::check([](unsigned seed) {
     Chances chances(seed);
     const glm::dvec3 middle = chances.below(2) * 1e6 * chances.direction();
-    const glm::dvec3 size = 0.1 + 20.0 * chances.place();
-    const VolumeSpace space = chances.below(2) == 0
-                                  ? boxSpace(middle - size / 2.0, middle + size / 2.0)
-                                  : turnedSpace(middle, size, chances.between(0, 7), chances.direction());
+    const VolumeSpace space = anySpace(chances, middle);
     const glm::ivec3 voxels(1 + chances.below(50), 1 + chances.below(50), 1 + chances.below(50));
     const double sigma = std::pow(10, chances.between(-4, 1));
     const Ray ray{toWorld(space, 3.0 * chances.place() - 1.0), chances.direction()};
