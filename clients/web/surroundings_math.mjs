@@ -34,7 +34,7 @@ export const litByOwnLight = ({ spec }) => withoutSun(removePath(withoutSource(s
 export function litByStudio(state) {
   const plain = removePath(withoutSource(state.spec), 'environment.background');
   const isNamed = !hasOwnLight(state) || getPath(plain, 'environment.studio');
-  const spec = isNamed ? plain : setPath(plain, 'environment.studio', 'even');
+  const spec = isNamed ? plain : setPath(plain, 'environment.studio', 'lamps');
   const hasSun = !spec.lights || spec.lights[0]?.sun;
   return hasSun ? spec : { ...spec, lights: [...lightsWithSun({ spec: {}, report: null }, sunInForce(state)), ...spec.lights] };
 }

@@ -93,9 +93,9 @@ TEST(SpecArguments, AnEnvironmentTakesThePlaceOfAnotherAndKeepsHowItIsShown) {
   EXPECT_FALSE(studio.environment.file || studio.environment.sky);
   EXPECT_EQ(studio.environment.intensity, 2);
   EXPECT_EQ(studio.environment.studio, Studio::lamps) << "named, so that the glTF's own light is not asked for";
-  const FrameSpec lamps = resolved(R"({"environment": {"light": 1, "studio": "lamps"}})", flags);
-  EXPECT_FALSE(lamps.environment.light);
-  EXPECT_EQ(lamps.environment.studio, Studio::lamps);
+  const FrameSpec even = resolved(R"({"environment": {"light": 1, "studio": "even"}})", flags);
+  EXPECT_FALSE(even.environment.light);
+  EXPECT_EQ(even.environment.studio, Studio::even);
 }
 
 TEST(SpecArguments, TheSunIsThatOfTheSkyWhereThereIsOne) {
